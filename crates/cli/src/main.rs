@@ -1,0 +1,2 @@
+//! The binary `aim-batch`.
+fn main() {}

@@ -1,0 +1,1 @@
+//! SD card -> one MCAP file per session, and MCAP -> typed streams.

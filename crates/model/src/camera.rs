@@ -1,0 +1,123 @@
+//! The camera: between pixels and rays.
+
+use nalgebra::{Point2, Vector3};
+
+use crate::lens::{LensError, LensModel};
+
+/// A calibrated camera: Eq. (4) with a lens model in place of Eq. (3) alone.
+///
+/// x = fx `x_d` + skew `y_d` + cx, y = fy `y_d` + cy, with (`x_d`, `y_d`) the normalised distorted point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    size_px: [u32; 2],
+    focal_px: [f64; 2],
+    principal_px: [f64; 2],
+    skew_px: f64,
+    lens: LensModel,
+}
+
+/// Why numbers do not make a camera.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CameraError {
+    /// Width or height is zero.
+    #[error("picture size {0} x {1} px: expected both above 0")]
+    EmptyPicture(u32, u32),
+    /// A focal length is not a positive finite number.
+    #[error("focal length {0} px: expected a positive number")]
+    BadFocalLength(f64),
+    /// Another parameter is not a finite number.
+    #[error("{0} is not a finite number")]
+    NotFinite(&'static str),
+}
+
+impl Camera {
+    /// `size_px`: width, height. `focal_px`: fx, fy, that is f times the scales of Eq. (4). `principal_px`: cx, cy.
+    /// `skew_px`: the paper's second `K_c` (Eq. 4, px/mm) times f.
+    ///
+    /// # Errors
+    /// [`CameraError`] for an empty picture, a focal length that is not positive, or numbers that are not finite.
+    pub fn new(
+        size_px: [u32; 2],
+        focal_px: [f64; 2],
+        principal_px: [f64; 2],
+        skew_px: f64,
+        lens: LensModel,
+    ) -> Result<Self, CameraError> {
+        if size_px.contains(&0) {
+            return Err(CameraError::EmptyPicture(size_px[0], size_px[1]));
+        }
+        if let Some(bad) = focal_px.into_iter().find(|f| !f.is_finite() || *f <= 0.0) {
+            return Err(CameraError::BadFocalLength(bad));
+        }
+        if !principal_px.into_iter().all(f64::is_finite) {
+            return Err(CameraError::NotFinite("the principal point"));
+        }
+        if !skew_px.is_finite() {
+            return Err(CameraError::NotFinite("the skew"));
+        }
+        let coefficients = match lens {
+            LensModel::None => vec![],
+            LensModel::Radial(l) => vec![l.k1],
+            LensModel::Division(l) => vec![l.lambda],
+            LensModel::PlumbBob(l) => vec![l.k1, l.k2, l.p1, l.p2, l.k3],
+            LensModel::Fisheye(l) => vec![l.k1, l.k2, l.k3, l.k4],
+        };
+        if !coefficients.into_iter().all(f64::is_finite) {
+            return Err(CameraError::NotFinite("a lens coefficient"));
+        }
+        Ok(Self { size_px, focal_px, principal_px, skew_px, lens })
+    }
+
+    /// Width and height of its pictures.
+    #[must_use]
+    pub fn size_px(&self) -> [u32; 2] {
+        self.size_px
+    }
+
+    /// Focal lengths fx and fy.
+    #[must_use]
+    pub fn focal_px(&self) -> [f64; 2] {
+        self.focal_px
+    }
+
+    /// Principal point cx and cy.
+    #[must_use]
+    pub fn principal_px(&self) -> [f64; 2] {
+        self.principal_px
+    }
+
+    /// Skew of the pixel grid.
+    #[must_use]
+    pub fn skew_px(&self) -> f64 {
+        self.skew_px
+    }
+
+    /// Lens model.
+    #[must_use]
+    pub fn lens(&self) -> &LensModel {
+        &self.lens
+    }
+
+    /// The ray through a pixel: a direction in the camera frame, of any length.
+    ///
+    /// # Errors
+    /// [`LensError`] when the lens shows nothing there.
+    pub fn ray_through(&self, pixel: Point2<f64>) -> Result<Vector3<f64>, LensError> {
+        // The exact inverse of Eq. (4). The paper's Eq. (9) is misprinted: a '+' for a product, the skew transposed.
+        let y = (pixel.y - self.principal_px[1]) / self.focal_px[1];
+        let x = (pixel.x - self.principal_px[0] - self.skew_px * y) / self.focal_px[0];
+        self.lens.ray_of_distorted(Point2::new(x, y))
+    }
+
+    /// The pixel that shows a point or direction given in the camera frame. It may lie outside the picture.
+    ///
+    /// # Errors
+    /// [`LensError`] when the lens does not show that direction.
+    pub fn pixel_of(&self, in_camera: &Vector3<f64>) -> Result<Point2<f64>, LensError> {
+        let distorted = self.lens.distorted_of_ray(in_camera)?;
+        Ok(Point2::new(
+            self.focal_px[0] * distorted.x + self.skew_px * distorted.y + self.principal_px[0], // Eq. (4)
+            self.focal_px[1] * distorted.y + self.principal_px[1],
+        ))
+    }
+}

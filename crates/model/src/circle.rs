@@ -1,0 +1,124 @@
+//! Circles through marked points.
+
+use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
+use nalgebra::storage::Owned;
+use nalgebra::{DVector, Dyn, Matrix3, OMatrix, Point2, U3, Vector3};
+
+/// A circle on a plane, in mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Circle {
+    /// Centre.
+    pub center_mm: Point2<f64>,
+    /// Radius.
+    pub radius_mm: f64,
+}
+
+/// Why points do not give a circle.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum CircleError {
+    /// A circle needs three points.
+    #[error("{0} points do not fix a circle; mark at least 3, better 8 or more, spread around the rim")]
+    TooFewPoints(usize),
+    /// The points lie on a line or on one spot.
+    #[error("the points lie on a line or on one spot; spread them around the rim")]
+    Degenerate,
+}
+
+/// Least-squares circle through points on a plane.
+///
+/// `scatter_mm(point, direction)`: standard deviation of a point along a unit direction, to any common factor; on a plane
+/// seen under a slant, a pixel's worth of marking error is larger far away and along the line of sight. An algebraic fit
+/// (Kasa 1976) starts a geometric one: radial distances in units of their scatter, by Levenberg-Marquardt.
+///
+/// # Errors
+/// [`CircleError`] for fewer than three points, or points on a line.
+pub fn fit_circle(
+    points_mm: &[Point2<f64>],
+    scatter_mm: impl Fn(usize, nalgebra::Vector2<f64>) -> f64,
+) -> Result<Circle, CircleError> {
+    if points_mm.len() < 3 {
+        return Err(CircleError::TooFewPoints(points_mm.len()));
+    }
+    let mut circle = algebraic_fit(points_mm)?;
+    // The scatter depends on the direction from the centre, so the second pass uses the first one's centre.
+    for _ in 0..2 {
+        let weights = points_mm.iter().enumerate().map(|(i, p)| {
+            let direction = (p - circle.center_mm).try_normalize(0.0).unwrap_or_else(nalgebra::Vector2::x);
+            scatter_mm(i, direction).max(f64::MIN_POSITIVE).recip()
+        });
+        circle = geometric_fit(points_mm, DVector::from_iterator(points_mm.len(), weights), circle);
+    }
+    if circle.radius_mm.is_finite() && circle.radius_mm > 0.0 { Ok(circle) } else { Err(CircleError::Degenerate) }
+}
+
+/// Kasa's fit: x^2 + y^2 = 2 a x + 2 b y + c in the least-squares sense, about the centroid.
+fn algebraic_fit(points_mm: &[Point2<f64>]) -> Result<Circle, CircleError> {
+    #[expect(clippy::cast_precision_loss, reason = "a count of marks is far below 2^53")]
+    let n = points_mm.len() as f64;
+    let centroid = points_mm.iter().fold(nalgebra::Vector2::zeros(), |sum, p| sum + p.coords) / n;
+    let scale = points_mm.iter().map(|p| (p.coords - centroid).norm()).fold(0.0, f64::max);
+    if !(scale > 0.0 && scale.is_finite()) {
+        return Err(CircleError::Degenerate);
+    }
+    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    for p in points_mm {
+        let q = (p.coords - centroid) / scale;
+        let row = Vector3::new(2.0 * q.x, 2.0 * q.y, 1.0);
+        normal += row * row.transpose();
+        right += row * q.norm_squared();
+    }
+    // Points on a line leave the normal matrix without full rank.
+    let eigenvalues = normal.symmetric_eigenvalues();
+    if eigenvalues.min() <= 1e-10 * eigenvalues.max() {
+        return Err(CircleError::Degenerate);
+    }
+    let solution = normal.cholesky().ok_or(CircleError::Degenerate)?.solve(&right);
+    let radius = (solution.z + solution.x.powi(2) + solution.y.powi(2)).sqrt();
+    Ok(Circle { center_mm: Point2::from(centroid + solution.xy() * scale), radius_mm: radius * scale })
+}
+
+fn geometric_fit(points_mm: &[Point2<f64>], weights: DVector<f64>, start: Circle) -> Circle {
+    let parameters = Vector3::new(start.center_mm.x, start.center_mm.y, start.radius_mm);
+    let problem = RadialDistances { points_mm, weights, parameters };
+    let (solved, _) = LevenbergMarquardt::new().minimize(problem);
+    let p = solved.parameters;
+    Circle { center_mm: Point2::new(p.x, p.y), radius_mm: p.z }
+}
+
+struct RadialDistances<'a> {
+    points_mm: &'a [Point2<f64>],
+    weights: DVector<f64>,
+    /// Centre x, centre y, radius.
+    parameters: Vector3<f64>,
+}
+
+impl LeastSquaresProblem<f64, Dyn, U3> for RadialDistances<'_> {
+    type ResidualStorage = Owned<f64, Dyn>;
+    type JacobianStorage = Owned<f64, Dyn, U3>;
+    type ParameterStorage = Owned<f64, U3>;
+
+    fn set_params(&mut self, parameters: &Vector3<f64>) {
+        self.parameters = *parameters;
+    }
+
+    fn params(&self) -> Vector3<f64> {
+        self.parameters
+    }
+
+    fn residuals(&self) -> Option<DVector<f64>> {
+        let (center, radius) = (self.parameters.xy(), self.parameters.z);
+        let radial = |(p, w): (&Point2<f64>, &f64)| ((p.coords - center).norm() - radius) * w;
+        let values = self.points_mm.iter().zip(self.weights.iter()).map(radial);
+        Some(DVector::from_iterator(self.points_mm.len(), values))
+    }
+
+    fn jacobian(&self) -> Option<OMatrix<f64, Dyn, U3>> {
+        let center = self.parameters.xy();
+        let mut jacobian = OMatrix::<f64, Dyn, U3>::zeros(self.points_mm.len());
+        for (i, (p, w)) in self.points_mm.iter().zip(self.weights.iter()).enumerate() {
+            let direction = (p.coords - center).try_normalize(0.0)?;
+            jacobian.set_row(i, &(nalgebra::RowVector3::new(-direction.x, -direction.y, -1.0) * *w));
+        }
+        Some(jacobian)
+    }
+}

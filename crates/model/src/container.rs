@@ -1,0 +1,39 @@
+//! What is measured, and how.
+
+use crate::codes::coded_enum;
+
+coded_enum! {
+    /// The kind of a container, which decides the plane its sizes are measured on.
+    Kind {
+        Plate = "plate": "flat: measured on the table plane Z = 0",
+        Bowl = "bowl": "has a height; its mouth is measured on the rim plane Z = H",
+        Box = "box": "rectangular with a height; its mouth is measured on the rim plane Z = H",
+    }
+}
+
+coded_enum! {
+    /// The outline of a container as seen from above.
+    Shape {
+        Circle = "circle": "round: one diameter",
+        Square = "square": "four equal sides: a width",
+        Rectangle = "rectangle": "a width (short side) and a length (long side)",
+    }
+}
+
+coded_enum! {
+    /// A size of a container.
+    Quantity {
+        Diameter = "diameter": "diameter of a round rim",
+        Width = "width": "side of a square, short side of a rectangle",
+        Length = "length": "long side of a rectangle",
+        Height = "height": "height of the rim above the table",
+    }
+}
+
+coded_enum! {
+    /// How marks become sizes.
+    Method {
+        Paper = "paper": "the paper's equations 10-15: roll taken as zero, wall height H = tan(pitch) H'",
+        Ray = "ray": "measured roll, and the wall height from the rim point's own ray: exact for a vertical wall",
+    }
+}

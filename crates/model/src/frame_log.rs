@@ -1,0 +1,34 @@
+//! Why an image was kept or dropped.
+
+use crate::codes::coded_enum;
+
+coded_enum! {
+    /// The one reason that the ledger gives for every image of a study: the first that applies, in this order.
+    FrameReason {
+        EmptyImage = "empty_image": "the file has no bytes",
+        NotAnImage = "not_an_image": "the file does not begin like a JPEG or PNG picture, or its header is damaged",
+        WrongSize = "wrong_size": "the picture's width and height are not the camera's",
+        NoTime = "no_time": "neither the file name nor EXIF gives the image's time as the profile declares it",
+        NoAcceleration = "no_acceleration": "too few accelerometer samples around the image's time to tell gravity",
+        BadGravity = "bad_gravity": "the length of gravity is too far from 1 g: the accelerometer or its scale is wrong",
+        NoRange = "no_range": "too few valid range samples around the image's time",
+        NotBelowHorizon = "not_below_horizon": "the camera looks level or upwards: its axis never meets the table",
+        Moving = "moving": "the head moved more than the stillness threshold allows",
+        PitchOutsideTarget = "pitch_outside_target": "the pitch is outside the target window",
+        Selected = "selected": "still, pitch within the target window: used for fused sizes",
+    }
+}
+
+impl FrameReason {
+    /// Whether the image has a pose, so that marks on it can be measured.
+    #[must_use]
+    pub fn has_pose(self) -> bool {
+        matches!(self, Self::Moving | Self::PitchOutsideTarget | Self::Selected)
+    }
+
+    /// Whether data was lost, as opposed to an image that was looked at and not chosen.
+    #[must_use]
+    pub fn is_loss(self) -> bool {
+        matches!(self, Self::EmptyImage | Self::NotAnImage | Self::WrongSize | Self::NoTime)
+    }
+}

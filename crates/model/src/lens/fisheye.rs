@@ -1,0 +1,60 @@
+//! Kannala-Brandt, the fisheye model of OpenCV.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Point2, Vector3};
+
+use super::{LensError, radius};
+use crate::polynomial::{evaluate, first_root, solve_increasing};
+
+/// OpenCV's four coefficients (`cv::fisheye`): distorted radius = t (1 + k1 t^2 + k2 t^4 + k3 t^6 + k4 t^8), t the
+/// angle of the ray from the optical axis in radians. Rays beyond 90 degrees are allowed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Fisheye {
+    /// t^3.
+    pub k1: f64,
+    /// t^5.
+    pub k2: f64,
+    /// t^7.
+    pub k3: f64,
+    /// t^9.
+    pub k4: f64,
+}
+
+impl Fisheye {
+    /// Largest angle from the axis, in radians, of the monotone range.
+    #[must_use]
+    pub fn angle_limit_rad(&self) -> f64 {
+        let slope_in_t2 = [1.0, 3.0 * self.k1, 5.0 * self.k2, 7.0 * self.k3, 9.0 * self.k4];
+        first_root(&slope_in_t2, PI * PI).map_or(PI, f64::sqrt)
+    }
+
+    pub(super) fn distorted_of_ray(&self, ray: &Vector3<f64>) -> Result<Point2<f64>, LensError> {
+        let across = ray.x.hypot(ray.y);
+        let (angle_rad, limit) = (across.atan2(ray.z), self.angle_limit_rad());
+        if angle_rad > limit {
+            return Err(LensError::IdealBeyondRange { radius: angle_rad, limit });
+        }
+        if across <= 0.0 {
+            return Ok(Point2::origin());
+        }
+        Ok(Point2::new(ray.x, ray.y) * (self.distorted_radius(angle_rad) / across))
+    }
+
+    pub(super) fn ray_of_distorted(&self, distorted: Point2<f64>) -> Result<Vector3<f64>, LensError> {
+        let (r, limit_rad) = (radius(distorted), self.angle_limit_rad());
+        let limit = self.distorted_radius(limit_rad);
+        if r > limit {
+            return Err(LensError::ImageBeyondRange { radius: r, limit });
+        }
+        if r <= 0.0 {
+            return Ok(Vector3::z());
+        }
+        let (sin, cos) = solve_increasing(|t| self.distorted_radius(t), r, 0.0, limit_rad).sin_cos();
+        Ok(Vector3::new(distorted.x / r * sin, distorted.y / r * sin, cos))
+    }
+
+    fn distorted_radius(&self, angle_rad: f64) -> f64 {
+        angle_rad * evaluate(&[1.0, self.k1, self.k2, self.k3, self.k4], angle_rad * angle_rad)
+    }
+}

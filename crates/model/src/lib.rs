@@ -1,0 +1,66 @@
+//! Vocabulary and mathematics of aim-batch. No I/O.
+//!
+//! A camera worn on eyeglasses looks down on a table. Gravity gives the *pitch* (depression of the optical axis below
+//! the horizontal) and the *roll*; a range sensor along the optical axis gives the *range* to the table. Together they fix
+//! the table plane in the camera frame, so a pixel that shows a point of known height has a place in millimetres.
+//!
+//! Source: Raju, Sazonov et al., *Estimation of Plate and Bowl Dimensions for Food Portion Size Assessment in a Wearable
+//! Sensor System* ("the paper"). Equation numbers in this crate are the paper's.
+//!
+//! # Conventions
+//! - Camera frame: x right, y down, z forward along the optical axis (OpenCV, ROS optical frames).
+//! - World frame: origin on the table vertically under the camera; X right, Y forward (horizontal), Z up.
+//! - Radians and millimetres, unless a name says otherwise. Pixels: (0, 0) is the centre of the first pixel.
+//! - Roll is positive when the camera turns clockwise about its optical axis as the wearer sees it, hence
+//!   down = (sin p cos w, cos p cos w, sin w) in the camera frame for pitch w and roll p.
+//!
+//! # Example
+//! ```
+//! use aim_batch_model::{Camera, LensModel, Pose, View};
+//! use nalgebra::Point2;
+//!
+//! let camera = Camera::new([2592, 1944], [1695.0, 1703.0], [1296.0, 972.0], 0.0, LensModel::None)?;
+//! let pose = Pose::new(55_f64.to_radians(), 0.0, 580.0)?;
+//! let view = View::new(camera, pose);
+//! // The principal point meets the table at the end of the range.
+//! let on_table_mm = view.on_plane(Point2::new(1296.0, 972.0), 0.0)?;
+//! assert!((on_table_mm.y - 580.0 * 55_f64.to_radians().cos()).abs() < 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![warn(missing_docs)]
+
+mod camera;
+mod camera_spec;
+mod circle;
+mod codes;
+mod container;
+mod frame_log;
+pub mod lens;
+mod marks;
+mod measure;
+mod polynomial;
+mod pose;
+pub mod results;
+mod sink;
+mod stats;
+mod status;
+mod table;
+mod time;
+mod view;
+
+pub use camera::{Camera, CameraError};
+pub use camera_spec::{CameraSpec, CameraSpecError, LensSpec};
+pub use circle::{Circle, CircleError, fit_circle};
+pub use container::{Kind, Method, Quantity, Shape};
+pub use frame_log::FrameReason;
+pub use lens::{LensError, LensModel};
+pub use marks::{Feature, Mark, ObjectMarks};
+pub use measure::{Container, MeasureError, Measured, height_by_paper_mm, height_by_ray_mm, measure};
+pub use pose::{Pose, PoseError};
+pub use results::{FrameRow, Level, ResultRow};
+pub use sink::{ResultSink, RunMetadata};
+pub use stats::ErrorStats;
+pub use status::{Problem, SessionStatus, Stage};
+pub use table::{Note, PrintedRow, PrintedSummary, PrintedTable, Selection, TableLayout, TableSpec};
+pub use time::UtcNs;
+pub use view::{View, ViewError};

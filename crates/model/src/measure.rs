@@ -1,0 +1,239 @@
+//! From the marks of one object on one picture to its sizes.
+
+use nalgebra::{Matrix2, Point2, Vector2};
+
+use crate::circle::{Circle, CircleError, fit_circle};
+use crate::container::{Kind, Method, Quantity, Shape};
+use crate::marks::{Feature, Mark, ObjectMarks};
+use crate::view::{View, ViewError};
+
+/// What is known of a container before it is measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Container {
+    /// Plate, bowl or box.
+    pub kind: Kind,
+    /// Its outline.
+    pub shape: Shape,
+    /// Height of the rim above the table where it is known (a catalogue, a ruler) and need not be measured.
+    pub rim_height_mm: Option<f64>,
+}
+
+/// One size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// Which size.
+    pub quantity: Quantity,
+    /// The size: mean over the lines or outlines marked for it.
+    pub predicted_mm: f64,
+    /// Height of the plane that it was measured on; for a height, the table.
+    pub plane_z_mm: f64,
+    /// How many lines or outlines were marked for it.
+    pub marks: usize,
+}
+
+/// Why marks do not give a size.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum MeasureError {
+    /// A marked point has no place on its plane.
+    #[error(transparent)]
+    View(#[from] ViewError),
+    /// An outline does not give a circle.
+    #[error("{feature} outline: {source}")]
+    Circle {
+        /// Which outline.
+        feature: Feature,
+        /// Why.
+        source: CircleError,
+    },
+    /// A rim is marked, but its height is not known.
+    #[error(
+        "the rim's height is not known: mark a line OBJECT/height from the wall's foot on the table to the rim above it, \
+         or give the rim height"
+    )]
+    NoHeight,
+    /// The second end of a height line is not behind the first one.
+    #[error(
+        "the height line runs towards the wearer on the table plane: draw it from the wall's foot on the table to the rim \
+         above it"
+    )]
+    RimBelowFoot,
+    /// A rim polygon of a square or rectangle that is not four corners.
+    #[error("rim outline of a {shape}: expected its 4 corners, got {points} points")]
+    NotFourCorners {
+        /// The shape.
+        shape: Shape,
+        /// How many points there are.
+        points: usize,
+    },
+}
+
+/// Wall height by the paper: Eq. (14), H = tan(w) H', where H' is the length along Y, on Z = 0, from the wall's foot to
+/// the rim above it. This uses the depression of the optical axis for every ray.
+///
+/// # Errors
+/// [`MeasureError`] when an end has no place on the table, or the rim end lies nearer than the foot.
+pub fn height_by_paper_mm(view: &View, foot_px: Point2<f64>, rim_px: Point2<f64>) -> Result<f64, MeasureError> {
+    let (foot, rim) = (view.on_plane(foot_px, 0.0)?, view.on_plane(rim_px, 0.0)?);
+    let projected_mm = rim.y - foot.y; // H'
+    positive_height(view.pose().pitch_rad().tan() * projected_mm) // Eq. (14)
+}
+
+/// Wall height by the rim point's own ray, exact for a vertical wall: H = c (1 - |foot| / |rim|), with distances on
+/// Z = 0 from the point under the camera.
+///
+/// # Errors
+/// As [`height_by_paper_mm`].
+pub fn height_by_ray_mm(view: &View, foot_px: Point2<f64>, rim_px: Point2<f64>) -> Result<f64, MeasureError> {
+    let (foot, rim) = (view.on_plane(foot_px, 0.0)?, view.on_plane(rim_px, 0.0)?);
+    positive_height(view.pose().camera_height_mm() * (1.0 - foot.coords.norm() / rim.coords.norm()))
+}
+
+fn positive_height(height_mm: f64) -> Result<f64, MeasureError> {
+    if height_mm > 0.0 { Ok(height_mm) } else { Err(MeasureError::RimBelowFoot) }
+}
+
+/// The sizes of one marked object: heights first, then what is measured on the rim plane Z = H (plates: Z = 0, unless
+/// their rim height is known). Several marks of one quantity are averaged.
+///
+/// [`Method::Paper`] takes the roll as zero. A known rim height decides the plane; a marked height is then still
+/// measured and returned.
+///
+/// # Errors
+/// One per quantity that is marked but cannot be measured; the other quantities are still returned.
+#[must_use]
+pub fn measure(
+    view: &View,
+    method: Method,
+    container: &Container,
+    marks: &ObjectMarks,
+) -> Vec<(Quantity, Result<Measured, MeasureError>)> {
+    let view = match method {
+        Method::Paper => View::new(*view.camera(), view.pose().without_roll()),
+        Method::Ray => *view,
+    };
+    let height = marked_height(&view, method, marks);
+    let plane_z_mm = match (container.rim_height_mm, container.kind, &height) {
+        (Some(known_mm), _, _) => Ok(known_mm),
+        (None, Kind::Plate, _) => Ok(0.0),
+        (None, Kind::Bowl | Kind::Box, Some(Ok(measured))) => Ok(measured.predicted_mm),
+        (None, Kind::Bowl | Kind::Box, Some(Err(error))) => Err(*error),
+        (None, Kind::Bowl | Kind::Box, None) => Err(MeasureError::NoHeight),
+    };
+    let mut sizes: Vec<_> = height.map(|result| (Quantity::Height, result)).into_iter().collect();
+    for quantity in [Quantity::Diameter, Quantity::Width, Quantity::Length] {
+        let found = marked_spans(container.shape, quantity, marks);
+        if !found.is_empty() {
+            sizes.push((quantity, plane_z_mm.and_then(|z_mm| mean_span(&view, quantity, &found, z_mm))));
+        }
+    }
+    sizes
+}
+
+fn marked_height(view: &View, method: Method, marks: &ObjectMarks) -> Option<Result<Measured, MeasureError>> {
+    let heights_mm: Vec<_> = lines(marks, Quantity::Height)
+        .map(|[foot, rim]| match method {
+            Method::Paper => height_by_paper_mm(view, foot, rim),
+            Method::Ray => height_by_ray_mm(view, foot, rim),
+        })
+        .collect();
+    if heights_mm.is_empty() {
+        return None;
+    }
+    Some(mean(heights_mm).map(|(predicted_mm, marks)| Measured {
+        quantity: Quantity::Height,
+        predicted_mm,
+        plane_z_mm: 0.0,
+        marks,
+    }))
+}
+
+/// Something on the rim plane whose extent is a size.
+enum Span<'a> {
+    Line([Point2<f64>; 2]),
+    Circle(&'a [Point2<f64>]),
+    /// Opposite sides of a quadrilateral.
+    Corners {
+        shape: Shape,
+        corners: &'a [Point2<f64>],
+    },
+}
+
+fn marked_spans<'a>(shape: Shape, quantity: Quantity, marks: &'a ObjectMarks) -> Vec<Span<'a>> {
+    let rims = marks.marks.iter().filter_map(|mark| match mark {
+        Mark::Outline { feature: Feature::Rim, points_px } => Some(points_px.as_slice()),
+        Mark::Outline { feature: Feature::Base, .. } | Mark::Line { .. } => None,
+    });
+    let outlines = rims.filter_map(|points| match (shape, quantity) {
+        (Shape::Circle, Quantity::Diameter) => Some(Span::Circle(points)),
+        (Shape::Square, Quantity::Width) | (Shape::Rectangle, Quantity::Width | Quantity::Length) => {
+            Some(Span::Corners { shape, corners: points })
+        }
+        _ => None,
+    });
+    lines(marks, quantity).map(Span::Line).chain(outlines).collect()
+}
+
+fn lines(marks: &ObjectMarks, wanted: Quantity) -> impl Iterator<Item = [Point2<f64>; 2]> + '_ {
+    marks.marks.iter().filter_map(move |mark| match mark {
+        Mark::Line { quantity, ends_px } if *quantity == wanted => Some(*ends_px),
+        _ => None,
+    })
+}
+
+fn mean_span(view: &View, quantity: Quantity, spans: &[Span<'_>], z_mm: f64) -> Result<Measured, MeasureError> {
+    let sizes_mm = spans.iter().map(|span| match span {
+        Span::Line([a, b]) => Ok(distance_mm(view, *a, *b, z_mm)?),
+        Span::Circle(points) => Ok(2.0 * circle_on_plane(view, points, z_mm)?.radius_mm),
+        Span::Corners { shape, corners } => side_mm(view, *shape, quantity, corners, z_mm),
+    });
+    let (predicted_mm, marks) = mean(sizes_mm.collect())?;
+    Ok(Measured { quantity, predicted_mm, plane_z_mm: z_mm, marks })
+}
+
+fn distance_mm(view: &View, a: Point2<f64>, b: Point2<f64>, z_mm: f64) -> Result<f64, ViewError> {
+    Ok((view.on_plane(a, z_mm)? - view.on_plane(b, z_mm)?).norm())
+}
+
+/// The circle through points marked along a level rim, each weighted by what a pixel is worth where it lies.
+fn circle_on_plane(view: &View, points_px: &[Point2<f64>], z_mm: f64) -> Result<Circle, MeasureError> {
+    let on_plane: Vec<_> = points_px.iter().map(|p| view.on_plane(*p, z_mm)).collect::<Result<_, _>>()?;
+    let per_pixel: Vec<_> =
+        points_px.iter().map(|p| plane_from_pixel_jacobian(view, *p, z_mm)).collect::<Result<_, _>>()?;
+    fit_circle(&on_plane, |i, direction| per_pixel[i].tr_mul(&direction).norm())
+        .map_err(|source| MeasureError::Circle { feature: Feature::Rim, source })
+}
+
+/// Derivative of the point on the plane by the pixel, in mm per px, by central differences of one pixel.
+fn plane_from_pixel_jacobian(view: &View, pixel: Point2<f64>, z_mm: f64) -> Result<Matrix2<f64>, ViewError> {
+    let along = |step: Vector2<f64>| -> Result<Vector2<f64>, ViewError> {
+        Ok(view.on_plane(pixel + step * 0.5, z_mm)? - view.on_plane(pixel - step * 0.5, z_mm)?)
+    };
+    Ok(Matrix2::from_columns(&[along(Vector2::x())?, along(Vector2::y())?]))
+}
+
+/// Mean of two opposite sides of a quadrilateral: all four for a square, the shorter or longer pair of a rectangle.
+fn side_mm(
+    view: &View,
+    shape: Shape,
+    quantity: Quantity,
+    corners: &[Point2<f64>],
+    z_mm: f64,
+) -> Result<f64, MeasureError> {
+    let &[a, b, c, d] = corners else {
+        return Err(MeasureError::NotFourCorners { shape, points: corners.len() });
+    };
+    let one = 0.5 * (distance_mm(view, a, b, z_mm)? + distance_mm(view, c, d, z_mm)?);
+    let other = 0.5 * (distance_mm(view, b, c, z_mm)? + distance_mm(view, d, a, z_mm)?);
+    Ok(match (shape, quantity) {
+        (Shape::Square, _) => 0.5 * (one + other),
+        (_, Quantity::Width) => one.min(other),
+        _ => one.max(other),
+    })
+}
+
+fn mean(values: Vec<Result<f64, MeasureError>>) -> Result<(f64, usize), MeasureError> {
+    let n = values.len();
+    let sum = values.into_iter().sum::<Result<f64, MeasureError>>()?;
+    #[expect(clippy::cast_precision_loss, reason = "a count of marks is far below 2^53")]
+    Ok((sum / n as f64, n))
+}

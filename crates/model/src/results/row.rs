@@ -1,0 +1,145 @@
+//! The columns.
+
+use super::cell::{Cell, CellError, ColumnType, Value};
+use crate::codes::coded_enum;
+use crate::container::{Kind, Method, Quantity, Shape};
+use crate::frame_log::FrameReason;
+use crate::time::UtcNs;
+
+/// Version of both schemas. It rises when a column is removed, renamed, or changes its type, unit or meaning; a new
+/// column at the end of a schema does not raise it.
+pub const RESULTS_SCHEMA_VERSION: u32 = 1;
+
+coded_enum! {
+    /// What a row of the results stands for.
+    Level {
+        Frame = "frame": "one image",
+        Fused = "fused": "the selected images of a session together",
+    }
+}
+
+/// One column of a schema.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Column {
+    /// Name, with the unit where it has one.
+    pub name: &'static str,
+    /// Type.
+    pub column_type: ColumnType,
+    /// Whether cells may be empty.
+    pub nullable: bool,
+    /// Meaning.
+    pub meaning: &'static str,
+}
+
+/// A row of a file with a fixed schema.
+pub trait Row: Sized {
+    /// Its columns.
+    const COLUMNS: &'static [Column];
+
+    /// Its cells, in the order of the columns.
+    fn values(&self) -> Vec<Value>;
+
+    /// The row with these cells.
+    ///
+    /// # Errors
+    /// The name of the first column whose cell does not fit, and why.
+    fn from_values(values: impl IntoIterator<Item = Value>) -> Result<Self, (&'static str, CellError)>;
+}
+
+macro_rules! schema {
+    ($(#[$outer:meta])* $name:ident, $columns:ident { $($field:ident : $type:ty = $meaning:literal,)+ }) => {
+        $(#[$outer])*
+        #[derive(Debug, Clone, PartialEq)]
+        pub struct $name { $(#[doc = $meaning] pub $field: $type,)+ }
+
+        #[doc = concat!("The columns of [`", stringify!($name), "`].")]
+        pub const $columns: &[Column] = &[$(Column {
+            name: stringify!($field),
+            column_type: <$type as Cell>::TYPE,
+            nullable: <$type as Cell>::NULLABLE,
+            meaning: $meaning,
+        },)+];
+
+        impl Row for $name {
+            const COLUMNS: &'static [Column] = $columns;
+
+            fn values(&self) -> Vec<Value> {
+                vec![$(self.$field.to_value(),)+]
+            }
+
+            fn from_values(values: impl IntoIterator<Item = Value>) -> Result<Self, (&'static str, CellError)> {
+                let mut values = values.into_iter();
+                Ok(Self {
+                    $($field: values
+                        .next()
+                        .ok_or(CellError::Missing)
+                        .and_then(Cell::from_value)
+                        .map_err(|error| (stringify!($field), error))?,)+
+                })
+            }
+        }
+    };
+}
+
+schema! {
+    /// One row of `results.parquet`: a size of an object, by one rater and one method, from one image or fused.
+    ResultRow, RESULT_COLUMNS {
+        schema_version: u32 = "version of this schema",
+        study: String = "name of the study",
+        session: String = "name of the session: its folder below cards/",
+        participant: Option<String> = "who wore the camera",
+        object: String = "name of the object, as in objects.csv and the marks",
+        kind: Kind = "plate, bowl or box",
+        shape: Shape = "circle, square or rectangle",
+        setup_height_mm: Option<f64> = "nominal height of the camera above the table, on a bench",
+        setup_pitch_deg: Option<f64> = "nominal pitch, on a bench",
+        rater: String = "who marked",
+        image: Option<String> = "file of the image, relative to the card; empty for fused rows",
+        time_utc: Option<UtcNs> = "time of the image; empty for fused rows",
+        pitch_deg: Option<f64> = "depression of the optical axis below the horizontal; fused: mean of the images",
+        roll_deg: Option<f64> = "roll, positive clockwise as the wearer sees it; fused: mean of the images",
+        range_mm: Option<f64> = "distance to the table along the optical axis; fused: mean of the images",
+        quantity: Quantity = "diameter, width, length or height",
+        method: Method = "how marks became a size: paper or ray",
+        level: Level = "frame (one image) or fused (the selected images of the session)",
+        predicted_mm: Option<f64> = "the measured size; empty when it could not be measured (flags say why)",
+        sigma_mm: Option<f64> = "standard uncertainty (k = 1) of predicted_mm from the sources below",
+        sigma_pitch_mm: Option<f64> = "its part from the pitch (accelerometer and mount offset)",
+        sigma_roll_mm: Option<f64> = "its part from the roll",
+        sigma_range_mm: Option<f64> = "its part from the range",
+        sigma_marks_mm: Option<f64> = "its part from the marks",
+        sigma_camera_mm: Option<f64> = "its part from the focal length and the principal point",
+        plane_z_mm: Option<f64> = "height of the plane that the size was measured on",
+        truth_mm: Option<f64> = "true size from objects.csv",
+        error_pct: Option<f64> = "100 (predicted_mm - truth_mm) / truth_mm",
+        selected: bool = "whether the image counts for fused rows: still, pitch within the target window; true for fused rows",
+        frames: u32 = "number of images behind the row",
+        spread_mm: Option<f64> = "sample SD between the images of a fused row; empty for fewer than two",
+        flags: String = "codes of what to know about the row, joined by commas; empty when there is nothing",
+    }
+}
+
+schema! {
+    /// One row of `frames.parquet`: an image of the study, kept or dropped, with one reason and the numbers behind it.
+    FrameRow, FRAME_COLUMNS {
+        schema_version: u32 = "version of this schema",
+        study: String = "name of the study",
+        session: String = "name of the session: its folder below cards/",
+        participant: Option<String> = "who wore the camera",
+        image: String = "file of the image, relative to the card",
+        time_utc: Option<UtcNs> = "time of the image",
+        reason: FrameReason = "why it was kept or dropped (docs/ledger.md)",
+        bytes: u32 = "size of the file, in bytes (4294967295 for more)",
+        width_px: Option<u32> = "width of the picture, from its header",
+        height_px: Option<u32> = "height of the picture, from its header",
+        gravity_mg: Option<f64> = "length of gravity after the low-pass, in 1/1000 of standard gravity",
+        stillness_mg: Option<f64> = "RMS of the acceleration around gravity near the image's time",
+        pitch_deg: Option<f64> = "depression of the optical axis below the horizontal",
+        roll_deg: Option<f64> = "roll, positive clockwise as the wearer sees it",
+        range_mm: Option<f64> = "distance to the table along the optical axis: median over a short window",
+        range_spread_mm: Option<f64> = "robust SD (1.4826 MAD) of the range samples in the window",
+        range_samples: u32 = "valid range samples in the window",
+        raters: u32 = "number of raters with marks on the image",
+        sizes: u32 = "number of sizes measured on the image, over raters and methods",
+    }
+}

@@ -1,0 +1,1 @@
+//! Ground truth -> a study on disk: renderer and sensor models.
