@@ -1,2 +1,32 @@
-//! The binary `aim-batch`.
-fn main() {}
+//! `aim-batch`: measures plates and bowls in recordings of a camera worn on eyeglasses.
+//!
+//! Arguments, progress, logs and exit codes; nothing else. Results go to stdout, diagnostics to stderr.
+
+mod args;
+mod commands;
+mod exit;
+mod logging;
+mod progress;
+#[cfg(test)]
+mod tests;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Args, Command};
+
+fn main() -> ExitCode {
+    let args = Args::parse();
+    let bars = progress::Bars::new(args.quiet);
+    logging::start(args.verbose, args.log_format, &bars);
+    let outcome = match &args.command {
+        Command::Run(run) => commands::run::run(run, &bars),
+        Command::Ingest(ingest) => commands::ingest::run(ingest, &bars),
+        Command::Report(report) => commands::report::run(report),
+        Command::Project(project) => commands::project::run(project),
+        Command::Measure(measure) => commands::measure::run(measure),
+        Command::Simulate(simulate) => commands::simulate::run(simulate, &bars),
+    };
+    exit::finish(outcome)
+}

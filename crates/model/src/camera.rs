@@ -115,9 +115,10 @@ impl Camera {
     /// [`LensError`] when the lens does not show that direction.
     pub fn pixel_of(&self, in_camera: &Vector3<f64>) -> Result<Point2<f64>, LensError> {
         let distorted = self.lens.distorted_of_ray(in_camera)?;
-        Ok(Point2::new(
+        let pixel = Point2::new(
             self.focal_px[0] * distorted.x + self.skew_px * distorted.y + self.principal_px[0], // Eq. (4)
             self.focal_px[1] * distorted.y + self.principal_px[1],
-        ))
+        );
+        if pixel.iter().all(|c| c.is_finite()) { Ok(pixel) } else { Err(LensError::NotFinite) }
     }
 }

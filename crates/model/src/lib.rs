@@ -46,6 +46,7 @@ mod stats;
 mod status;
 mod table;
 mod time;
+mod uncertainty;
 mod view;
 
 pub use camera::{Camera, CameraError};
@@ -59,8 +60,9 @@ pub use measure::{Container, MeasureError, Measured, height_by_paper_mm, height_
 pub use pose::{Pose, PoseError};
 pub use results::{FrameRow, Level, ResultRow};
 pub use sink::{ResultSink, RunMetadata};
-pub use stats::ErrorStats;
+pub use stats::{ErrorStats, median};
 pub use status::{Problem, SessionStatus, Stage};
 pub use table::{Note, PrintedRow, PrintedSummary, PrintedTable, Selection, TableLayout, TableSpec};
 pub use time::UtcNs;
+pub use uncertainty::{Estimate, InputSigma, SizeSigma, estimate};
 pub use view::{View, ViewError};

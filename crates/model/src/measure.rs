@@ -67,6 +67,20 @@ pub enum MeasureError {
     },
 }
 
+impl MeasureError {
+    /// Stable code, as in the `flags` of the results.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::View(_) => "mark_off_plane",
+            Self::Circle { .. } => "no_circle",
+            Self::NoHeight => "no_height",
+            Self::RimBelowFoot => "rim_below_foot",
+            Self::NotFourCorners { .. } => "not_four_corners",
+        }
+    }
+}
+
 /// Wall height by the paper: Eq. (14), H = tan(w) H', where H' is the length along Y, on Z = 0, from the wall's foot to
 /// the rim above it. This uses the depression of the optical axis for every ray.
 ///
@@ -107,11 +121,25 @@ pub fn measure(
     container: &Container,
     marks: &ObjectMarks,
 ) -> Vec<(Quantity, Result<Measured, MeasureError>)> {
-    let view = match method {
+    measure_as_seen(&view_of_method(view, method), method, container, marks)
+}
+
+/// The view as a method takes it.
+pub(crate) fn view_of_method(view: &View, method: Method) -> View {
+    match method {
         Method::Paper => View::new(*view.camera(), view.pose().without_roll()),
         Method::Ray => *view,
-    };
-    let height = marked_height(&view, method, marks);
+    }
+}
+
+/// [`measure`] with the view taken as it is, roll included.
+pub(crate) fn measure_as_seen(
+    view: &View,
+    method: Method,
+    container: &Container,
+    marks: &ObjectMarks,
+) -> Vec<(Quantity, Result<Measured, MeasureError>)> {
+    let height = marked_height(view, method, marks);
     let plane_z_mm = match (container.rim_height_mm, container.kind, &height) {
         (Some(known_mm), _, _) => Ok(known_mm),
         (None, Kind::Plate, _) => Ok(0.0),
@@ -123,7 +151,7 @@ pub fn measure(
     for quantity in [Quantity::Diameter, Quantity::Width, Quantity::Length] {
         let found = marked_spans(container.shape, quantity, marks);
         if !found.is_empty() {
-            sizes.push((quantity, plane_z_mm.and_then(|z_mm| mean_span(&view, quantity, &found, z_mm))));
+            sizes.push((quantity, plane_z_mm.and_then(|z_mm| mean_span(view, quantity, &found, z_mm))));
         }
     }
     sizes

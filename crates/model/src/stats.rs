@@ -45,7 +45,12 @@ impl ErrorStats {
     }
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
+/// Median: the middle value, or the mean of the two middle ones. Not a number for no values.
+#[must_use]
+pub fn median(mut values: Vec<f64>) -> f64 {
+    if values.is_empty() {
+        return f64::NAN;
+    }
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;
     if values.len() % 2 == 1 { values[middle] } else { 0.5 * (values[middle - 1] + values[middle]) }

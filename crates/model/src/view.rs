@@ -69,14 +69,16 @@ impl View {
     /// [`ViewError`] when the lens shows nothing there, the ray does not descend, or the plane is not below the camera.
     pub fn on_plane(&self, pixel: Point2<f64>, plane_z_mm: f64) -> Result<Point2<f64>, ViewError> {
         let camera_height_mm = self.pose.camera_height_mm();
-        if plane_z_mm.is_nan() || plane_z_mm >= camera_height_mm {
+        if !plane_z_mm.is_finite() || plane_z_mm >= camera_height_mm {
             return Err(ViewError::PlaneNotBelowCamera { plane_z_mm, camera_height_mm });
         }
         let ray_in_world = self.pose.world_from_camera() * self.camera.ray_through(pixel)?;
-        if ray_in_world.z >= 0.0 {
+        let on_plane_mm = Point2::from(ray_in_world.xy() * ((camera_height_mm - plane_z_mm) / -ray_in_world.z));
+        // A ray that is level but for rounding overflows.
+        if ray_in_world.z >= 0.0 || !on_plane_mm.iter().all(|c| c.is_finite()) {
             return Err(ViewError::AboveHorizon { x: pixel.x, y: pixel.y });
         }
-        Ok(Point2::from(ray_in_world.xy() * ((camera_height_mm - plane_z_mm) / -ray_in_world.z)))
+        Ok(on_plane_mm)
     }
 
     /// The pixel that shows a point of the world frame, in mm. It may lie outside the picture.

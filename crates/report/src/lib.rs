@@ -1,1 +1,26 @@
 //! Results to Parquet, and results to error tables. Knows nothing of sessions or images on cards.
+//!
+//! - [`ParquetSink`] takes the rows of a run and writes `results.parquet` and `frames.parquet`.
+//! - [`Results`] reads `results.parquet` back, with the metadata of its run; [`read_frames`] reads `frames.parquet`.
+//! - [`tables`] makes the tables that the study asks for, [`error_by_pitch`] and [`error_by_height`] two more.
+//! - [`terminal`], [`csv`], [`markdown`] and [`latex`] draw one [`Table`]; [`write_dir`] writes them all.
+//! - [`compare`] holds the tables against a folder of expected ones: a gate for automatic runs.
+//!
+//! What each table is, its statistics and its CSV columns: docs/tables.md.
+#![warn(missing_docs)]
+
+mod atomic;
+mod compare;
+mod parquet;
+mod render;
+mod table;
+mod tables;
+mod write_dir;
+
+pub use atomic::FileError;
+pub use compare::{CompareError, Comparison, Difference, compare};
+pub use parquet::{ParquetSink, ReadError, Results, SinkError, read_frames};
+pub use render::{csv, latex, markdown, terminal, terminal_set};
+pub use table::{Align, Cell, Column, Footnote, Format, Role, RowKind, Table, TableRow};
+pub use tables::{error_by_height, error_by_pitch, tables};
+pub use write_dir::{WriteError, write_dir};

@@ -1,1 +1,26 @@
 //! Ground truth -> a study on disk: renderer and sensor models.
+//!
+//! A *preset* decides what was seen and read; the rest of the crate turns that into the files of a study:
+//! - [`scene`]: a container on a table, and what a ray meets there;
+//! - [`render`]: a scene and a camera at a pose -> a picture;
+//! - [`sensors`]: the motion of a head -> packets of an accelerometer and of a range sensor;
+//! - [`study`]: the folder, its images' names, marks in LabelMe's format;
+//! - [`published`]: the preset `published-bench`, the paper's bench rebuilt from its published readings.
+//!
+//! ```no_run
+//! use aim_batch_simulate::published::{Options, published_bench};
+//!
+//! published_bench(std::path::Path::new("bench"), &Options::default(), &|_done, _total| {})?;
+//! # Ok::<(), aim_batch_simulate::SimulateError>(())
+//! ```
+#![warn(missing_docs)]
+
+mod error;
+pub mod published;
+pub mod render;
+pub mod scene;
+pub mod sensors;
+pub mod study;
+
+pub use error::SimulateError;
+pub use published::{Options, Summary, published_bench};

@@ -77,12 +77,12 @@ impl LensModel {
             return Err(LensError::NotInFront);
         }
         let ideal = Point2::new(ray.x / ray.z, ray.y / ray.z);
-        match self {
-            Self::None | Self::Fisheye(_) => Ok(ideal),
-            Self::Radial(lens) => lens.distort(ideal),
-            Self::Division(lens) => lens.distort(ideal),
-            Self::PlumbBob(lens) => lens.distort(ideal),
-        }
+        finite(match self {
+            Self::None | Self::Fisheye(_) => ideal,
+            Self::Radial(lens) => lens.distort(ideal)?,
+            Self::Division(lens) => lens.distort(ideal)?,
+            Self::PlumbBob(lens) => lens.distort(ideal)?,
+        })
     }
 
     /// The ray that the lens shows at a normalised image point: a direction in the camera frame, of any length.
@@ -93,15 +93,20 @@ impl LensModel {
         if !distorted.iter().all(|c| c.is_finite()) {
             return Err(LensError::NotFinite);
         }
-        let ideal = match self {
+        let ideal = finite(match self {
             Self::None => distorted,
             Self::Radial(lens) => lens.undistort(distorted)?,
             Self::Division(lens) => lens.undistort(distorted)?,
             Self::PlumbBob(lens) => lens.undistort(distorted)?,
             Self::Fisheye(lens) => return lens.ray_of_distorted(distorted),
-        };
+        })?;
         Ok(Vector3::new(ideal.x, ideal.y, 1.0))
     }
+}
+
+/// Refuses what overflowed: a ray all but sideways, or a coefficient beyond all sense.
+fn finite(point: Point2<f64>) -> Result<Point2<f64>, LensError> {
+    if point.iter().all(|c| c.is_finite()) { Ok(point) } else { Err(LensError::NotFinite) }
 }
 
 fn radius(point: Point2<f64>) -> f64 {

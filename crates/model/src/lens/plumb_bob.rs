@@ -24,13 +24,28 @@ pub struct PlumbBob {
 const WIDEST_IDEAL_RADIUS: f64 = 100.0;
 /// Newton steps; it converges quadratically from the radial solution, so this many are never needed.
 const MAX_STEPS: usize = 50;
+/// A Newton step that is still too long after this many halvings leads nowhere.
+const MAX_HALVINGS: i32 = 30;
 
 impl PlumbBob {
-    /// Largest ideal radius of the monotone range of the radial part.
+    /// Largest ideal radius within which the model is one-to-one for certain.
+    ///
+    /// The Jacobian is symmetric. Its radial part has the eigenvalues a = 1 + 3 k1 r^2 + 5 k2 r^4 + 7 k3 r^6 (along the
+    /// radius) and b = 1 + k1 r^2 + k2 r^4 + k3 r^6 (across); its tangential part has a norm of at most 6 |p| r. While a
+    /// and b exceed that, the Jacobian is positive definite, so the model is the gradient of a convex function and takes
+    /// no value twice. Without tangential terms the limit is where the model folds back; with them it lies a little before.
     #[must_use]
     pub fn ideal_limit(&self) -> f64 {
-        let slope_in_r2 = [1.0, 3.0 * self.k1, 5.0 * self.k2, 7.0 * self.k3];
-        first_root(&slope_in_r2, WIDEST_IDEAL_RADIUS.powi(2)).map_or(WIDEST_IDEAL_RADIUS, f64::sqrt)
+        let tangential = self.p1.hypot(self.p2);
+        if tangential <= 0.0 {
+            // Where a > 0 up to r, so is its mean over (0, r), which is b.
+            let along_in_r2 = [1.0, 3.0 * self.k1, 5.0 * self.k2, 7.0 * self.k3];
+            return first_root(&along_in_r2, WIDEST_IDEAL_RADIUS.powi(2)).map_or(WIDEST_IDEAL_RADIUS, f64::sqrt);
+        }
+        let along = [1.0, -6.0 * tangential, 3.0 * self.k1, 0.0, 5.0 * self.k2, 0.0, 7.0 * self.k3];
+        let across = [1.0, -6.0 * tangential, self.k1, 0.0, self.k2, 0.0, self.k3];
+        let first = |coefficients| first_root(coefficients, WIDEST_IDEAL_RADIUS).unwrap_or(WIDEST_IDEAL_RADIUS);
+        first(&along).min(first(&across))
     }
 
     pub(super) fn distort(&self, ideal: Point2<f64>) -> Result<Point2<f64>, LensError> {
@@ -48,19 +63,24 @@ impl PlumbBob {
         let start = solve_increasing(radial, target.min(radial(limit)), 0.0, limit);
         let mut ideal = if target > 0.0 { distorted * (start / target) } else { distorted };
         for _ in 0..MAX_STEPS {
-            let residual = self.apply(ideal) - distorted;
-            let Some(step) = self.jacobian(ideal).try_inverse().map(|inverse| inverse * residual) else { break };
-            ideal -= step;
-            if !step.norm().is_finite() || step.norm() <= 1e-15 * (1.0 + radius(ideal)) {
-                break;
-            }
+            let Some(nearer) = self.newton_step(ideal, distorted) else { break };
+            ideal = nearer;
         }
         let solved = (self.apply(ideal) - distorted).norm() <= 1e-11 * (1.0 + target);
-        if solved && radius(ideal) <= limit && self.jacobian(ideal).determinant() > 0.0 {
+        if solved && radius(ideal) <= limit * (1.0 + 1e-9) {
             Ok(ideal)
         } else {
             Err(LensError::ImageBeyondRange { radius: target, limit: radial(limit) })
         }
+    }
+
+    /// One step of Newton's method, halved until it comes nearer; none when it cannot.
+    fn newton_step(&self, ideal: Point2<f64>, distorted: Point2<f64>) -> Option<Point2<f64>> {
+        let residual = self.apply(ideal) - distorted;
+        let step = self.jacobian(ideal).try_inverse()? * residual;
+        (0..MAX_HALVINGS)
+            .map(|halvings| ideal - step * 0.5_f64.powi(halvings))
+            .find(|candidate| (self.apply(*candidate) - distorted).norm() < residual.norm())
     }
 
     fn radial_factor(&self, r2: f64) -> f64 {

@@ -4,6 +4,9 @@ use nalgebra::Point2;
 
 use super::{LensError, radius};
 
+/// A radius at the very limit may come out above it by rounding: it then counts as the limit.
+const ROUNDING: f64 = 1.0 + 4.0 * f64::EPSILON;
+
 /// Eq. (3): distorted = ideal (1 + k1 r^2), r the *ideal* radius.
 ///
 /// The paper's `K_c` is per mm^2 on the sensor; in normalised coordinates k1 = `K_c` f^2. (Eq. (4) reuses the letter for
@@ -23,7 +26,7 @@ impl Radial {
 
     pub(super) fn distort(&self, ideal: Point2<f64>) -> Result<Point2<f64>, LensError> {
         let (r, limit) = (radius(ideal), self.ideal_limit());
-        if r > limit {
+        if r > limit * ROUNDING {
             return Err(LensError::IdealBeyondRange { radius: r, limit });
         }
         Ok(ideal * (1.0 + self.k1 * r * r)) // Eq. (3)
@@ -48,9 +51,9 @@ impl Radial {
         if self.k1 > 0.0 {
             return Ok(2.0 / s * (argument.asinh() / 3.0).sinh());
         }
-        if argument > 1.0 {
+        if argument > ROUNDING {
             return Err(LensError::ImageBeyondRange { radius: distorted_radius, limit: 2.0 / (3.0 * s) });
         }
-        Ok(2.0 / s * (argument.asin() / 3.0).sin())
+        Ok(2.0 / s * (argument.min(1.0).asin() / 3.0).sin())
     }
 }

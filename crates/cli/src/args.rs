@@ -1,0 +1,197 @@
+//! The command line.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use model::{Kind, Method, Shape};
+
+use crate::logging::LogFormat;
+
+/// Measures plates and bowls in recordings of a camera worn on eyeglasses.
+///
+/// Exit codes: 0 all well, 1 failed, 2 usage or configuration, 3 finished but some data was lost (the messages say which
+/// and why).
+#[derive(Debug, Parser)]
+#[command(name = "aim-batch", version, propagate_version = true)]
+pub struct Args {
+    /// What to do
+    #[command(subcommand)]
+    pub command: Command,
+    /// Say more: -v information, -vv debugging
+    #[arg(short, long, action = clap::ArgAction::Count, global = true)]
+    pub verbose: u8,
+    /// Form of the log on stderr
+    #[arg(long, value_enum, default_value_t = LogFormat::Text, global = true, env = "AIM_BATCH_LOG_FORMAT")]
+    pub log_format: LogFormat,
+    /// No progress bars
+    #[arg(short, long, global = true)]
+    pub quiet: bool,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// The main job: ingest what is new, select, measure, write results, print tables
+    Run(RunArgs),
+    /// One SD card to one MCAP file
+    Ingest(IngestArgs),
+    /// Tables again, from the results alone
+    Report(ReportArgs),
+    /// Pixels to points on a level plane (CSV on stdin and stdout), or back
+    #[command(allow_negative_numbers = true)]
+    Project(ProjectArgs),
+    /// Sizes of what is marked in one picture, without a study
+    #[command(allow_negative_numbers = true)]
+    Measure(MeasureArgs),
+    /// A study with known truth
+    Simulate(SimulateArgs),
+}
+
+/// `run`.
+#[derive(Debug, clap::Args)]
+pub struct RunArgs {
+    /// Folder of the study (docs/study.md)
+    pub study: PathBuf,
+    /// File for the sizes; frames.parquet is written beside it
+    #[arg(short, long, env = "AIM_BATCH_OUT", default_value = "results.parquet")]
+    pub out: PathBuf,
+    /// Folder for what can be made anew (MCAP files); default: beside the output
+    #[arg(long, env = "AIM_BATCH_WORK")]
+    pub work: Option<PathBuf>,
+    /// Sessions at a time; default: the cores that this process may use
+    #[arg(short, long, env = "AIM_BATCH_JOBS")]
+    pub jobs: Option<NonZeroUsize>,
+    /// Ingest all cards again, changed or not
+    #[arg(long)]
+    pub force: bool,
+    /// Also write the tables to this folder (CSV, Markdown, LaTeX)
+    #[arg(long, env = "AIM_BATCH_REPORT")]
+    pub report: Option<PathBuf>,
+    /// Methods, separated by commas; default: those of study.toml
+    #[arg(long, env = "AIM_BATCH_METHOD", value_delimiter = ',')]
+    pub method: Vec<Method>,
+    /// Pitch near which frames are selected, in degrees; default: study.toml's
+    #[arg(long, env = "AIM_BATCH_TARGET_PITCH")]
+    pub target_pitch: Option<f64>,
+    /// Half width of the window around it, in degrees; default: study.toml's
+    #[arg(long, env = "AIM_BATCH_PITCH_TOLERANCE")]
+    pub pitch_tolerance: Option<f64>,
+    /// Compare the tables with those in this folder, and fail where they differ
+    #[arg(long, value_name = "DIR")]
+    pub expect: Option<PathBuf>,
+    /// Largest difference allowed by --expect: percentage points of an error, per cent of a size
+    #[arg(long, value_name = "PCT", default_value_t = 0.15, requires = "expect")]
+    pub tolerance: f64,
+}
+
+/// `ingest`.
+#[derive(Debug, clap::Args)]
+pub struct IngestArgs {
+    /// Folder of the card as it was copied
+    pub card: PathBuf,
+    /// The MCAP file to write
+    #[arg(short, long)]
+    pub out: PathBuf,
+    /// Device profile: built in (aim2-packets, csv), or a name in --devices
+    #[arg(long, default_value = "aim2-packets")]
+    pub profile: String,
+    /// Camera: built in (aim2-raw, aim2-corrected), or a name in --devices
+    #[arg(long, default_value = "aim2-raw")]
+    pub camera: String,
+    /// Folder with device profiles and cameras
+    #[arg(long, default_value = "devices")]
+    pub devices: PathBuf,
+    /// Time zone of image times that name none (IANA)
+    #[arg(long, default_value = "UTC")]
+    pub time_zone: String,
+}
+
+/// `report`.
+#[derive(Debug, clap::Args)]
+pub struct ReportArgs {
+    /// results.parquet of a run
+    pub results: PathBuf,
+    /// Folder for the tables (CSV, Markdown, LaTeX); without it they are only printed
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+}
+
+/// Where the camera is, for `project` and `measure`.
+#[derive(Debug, clap::Args)]
+pub struct PoseArgs {
+    /// Camera file (docs/devices.md)
+    #[arg(long, value_name = "CAM.toml")]
+    pub camera: PathBuf,
+    /// Depression of the optical axis below the horizontal, in degrees
+    #[arg(long, value_name = "DEG")]
+    pub pitch: f64,
+    /// Roll, positive clockwise as the wearer sees it, in degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    pub roll: f64,
+    /// Distance to the table along the optical axis, in mm
+    #[arg(long, value_name = "MM")]
+    pub range: f64,
+}
+
+/// `project`.
+#[derive(Debug, clap::Args)]
+pub struct ProjectArgs {
+    /// Where the camera is
+    #[command(flatten)]
+    pub pose: PoseArgs,
+    /// Height of the plane above the table, in mm
+    #[arg(long, value_name = "MM", default_value_t = 0.0)]
+    pub plane_z: f64,
+    /// From the plane to pixels: reads world_x_mm,world_y_mm
+    #[arg(long)]
+    pub inverse: bool,
+}
+
+/// `measure`.
+#[derive(Debug, clap::Args)]
+pub struct MeasureArgs {
+    /// The picture
+    pub image: PathBuf,
+    /// Where the camera is
+    #[command(flatten)]
+    pub pose: PoseArgs,
+    /// What is marked: plate (on the table), bowl or box (with a height)
+    #[arg(long)]
+    pub kind: Kind,
+    /// Its outline; default: circle for plates and bowls, rectangle for boxes
+    #[arg(long)]
+    pub shape: Option<Shape>,
+    /// Marks, as a LabelMe file (docs/study.md)
+    #[arg(long, value_name = "FILE.json")]
+    pub marks: PathBuf,
+    /// Height of the rim above the table in mm, where it is known and not to be measured
+    #[arg(long, value_name = "MM")]
+    pub rim_height: Option<f64>,
+    /// JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `simulate`.
+#[derive(Debug, clap::Args)]
+pub struct SimulateArgs {
+    /// What to make
+    pub preset: Preset,
+    /// Folder of the new study; must be empty or not exist
+    #[arg(short, long)]
+    pub out: PathBuf,
+    /// Seed of all randomness
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Everything but the pictures
+    #[arg(long)]
+    pub no_pictures: bool,
+}
+
+/// Studies that can be made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Preset {
+    /// The paper's bench and worn sessions, rebuilt from the published readings
+    PublishedBench,
+}

@@ -1,0 +1,40 @@
+//! `ingest`: one card to one MCAP file.
+
+use ::ingest::{Profile, SessionSource, camera, ingest_session};
+use anyhow::Context;
+
+use super::{PROGRAM, outcome, print, tell};
+use crate::args::IngestArgs;
+use crate::exit::{Failure, Outcome};
+use crate::progress::Bars;
+
+/// Ingests, and tells what was found and what was lost.
+pub fn run(args: &IngestArgs, bars: &Bars) -> Result<Outcome, Failure> {
+    let session = args.card.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+    let source = SessionSource {
+        session: session.unwrap_or_else(|| "session".to_owned()),
+        card_dir: args.card.clone(),
+        profile: Profile::load(&args.profile, &args.devices).map_err(Failure::usage)?,
+        camera_spec: camera::load(&args.camera, &args.devices).map_err(Failure::usage)?,
+        time_zone: jiff::tz::TimeZone::get(&args.time_zone)
+            .with_context(|| format!("--time-zone {}: expected an IANA name such as America/Chicago", args.time_zone))
+            .map_err(Failure::Usage)?,
+        program: PROGRAM.to_owned(),
+    };
+    let summary = ingest_session(&source, &args.out, bars)?;
+    print(&format!(
+        "{}: {} images, {} acceleration samples, {} range samples from {} files\n",
+        args.out.display(),
+        summary.counts.images,
+        summary.counts.acceleration,
+        summary.counts.range,
+        summary.files,
+    ))?;
+    for image in &summary.dropped_images {
+        tell(&format!("dropped {}: {} ({})\n", image.file, image.reason.meaning(), image.reason))?;
+    }
+    for problem in &summary.problems {
+        tell(&format!("{} in {}: {}; {}\n", problem.code, problem.place, problem.fact, problem.remedy))?;
+    }
+    Ok(outcome(!summary.problems.is_empty() || !summary.dropped_images.is_empty()))
+}

@@ -1,0 +1,39 @@
+//! One file per command.
+
+pub mod ingest;
+pub mod measure;
+pub mod project;
+pub mod report;
+pub mod run;
+pub mod simulate;
+mod view;
+
+use crate::exit::Outcome;
+
+/// Program and version, for provenance.
+pub const PROGRAM: &str = concat!("aim-batch ", env!("CARGO_PKG_VERSION"));
+
+/// Writes results to stdout.
+fn print(text: &str) -> std::io::Result<()> {
+    use std::io::Write;
+    std::io::stdout().write_all(text.as_bytes())
+}
+
+/// Writes what the user should know to stderr.
+fn tell(text: &str) -> std::io::Result<()> {
+    use std::io::Write;
+    std::io::stderr().write_all(text.as_bytes())
+}
+
+/// All tables of a run, as text for the terminal.
+fn tables_text(results: &::report::Results) -> String {
+    let mut tables = ::report::tables(results);
+    let by_band = [::report::error_by_pitch(results), ::report::error_by_height(results)];
+    tables.extend(by_band.into_iter().filter(|table| !table.rows.is_empty()));
+    ::report::terminal_set(&tables, None)
+}
+
+/// The outcome of a command that may have lost something.
+fn outcome(lost: bool) -> Outcome {
+    if lost { Outcome::WithLosses } else { Outcome::Well }
+}

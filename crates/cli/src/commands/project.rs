@@ -1,0 +1,67 @@
+//! `project`: one CSV in, one out.
+
+use std::io;
+
+use anyhow::anyhow;
+use model::{View, ViewError};
+use nalgebra::{Point2, Point3};
+
+use super::{outcome, view};
+use crate::args::ProjectArgs;
+use crate::exit::{Failure, Outcome};
+
+const PIXEL_COLUMNS: [&str; 2] = ["x", "y"];
+const WORLD_COLUMNS: [&str; 2] = ["world_x_mm", "world_y_mm"];
+
+/// Projects every row of stdin.
+pub fn run(args: &ProjectArgs) -> Result<Outcome, Failure> {
+    let view = view::from_args(&args.pose)?;
+    let (from, to) = if args.inverse { (WORLD_COLUMNS, PIXEL_COLUMNS) } else { (PIXEL_COLUMNS, WORLD_COLUMNS) };
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(io::stdin().lock());
+    let columns = columns_of(reader.headers().map_err(Failure::usage)?, from)?;
+    let mut writer = csv::Writer::from_writer(io::stdout().lock());
+    writer.write_record(from.iter().chain(&to))?;
+    let mut lost = false;
+    for record in reader.records() {
+        let record = record.map_err(Failure::usage)?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let texts = columns.map(|column| record.get(column).unwrap_or_default());
+        match project(args, &view, texts) {
+            Ok([a, b]) => writer.write_record([texts[0], texts[1], &a.to_string(), &b.to_string()])?,
+            Err(why) => {
+                lost = true;
+                tracing::error!(line, "no answer for ({}, {}): {why}", texts[0], texts[1]);
+                writer.write_record([texts[0], texts[1], "", ""])?;
+            }
+        }
+    }
+    writer.flush()?;
+    Ok(outcome(lost))
+}
+
+fn columns_of(headers: &csv::StringRecord, wanted: [&str; 2]) -> Result<[usize; 2], Failure> {
+    let find = |name: &str| headers.iter().position(|header| header == name);
+    match wanted.map(find) {
+        [Some(a), Some(b)] => Ok([a, b]),
+        _ => {
+            let got: Vec<_> = headers.iter().collect();
+            Err(Failure::Usage(anyhow!(
+                "stdin: expected CSV with a header and the columns {}, got {}",
+                wanted.join(","),
+                if got.is_empty() { "nothing".to_owned() } else { got.join(",") }
+            )))
+        }
+    }
+}
+
+fn project(args: &ProjectArgs, view: &View, texts: [&str; 2]) -> Result<[f64; 2], String> {
+    let [a, b] = texts.map(|text| text.parse::<f64>().map_err(|_| format!("'{text}' is not a number")));
+    let (a, b) = (a?, b?);
+    let say = |error: ViewError| error.to_string();
+    let point = if args.inverse {
+        view.pixel_of(Point3::new(a, b, args.plane_z)).map_err(say)?
+    } else {
+        view.on_plane(Point2::new(a, b), args.plane_z).map_err(say)?
+    };
+    Ok([point.x, point.y])
+}

@@ -1,0 +1,59 @@
+//! Log events of the libraries, to stderr.
+
+use std::io::{self, Write};
+
+use clap::ValueEnum;
+use tracing_subscriber::filter::LevelFilter;
+use tracing_subscriber::fmt::MakeWriter;
+
+use crate::progress::Bars;
+
+/// Form of the log.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LogFormat {
+    /// Lines for people.
+    Text,
+    /// One JSON object per line.
+    Json,
+}
+
+/// Starts logging: errors and warnings, with `-v` also information, with `-vv` debugging.
+///
+/// Session problems are warnings; the commands that list them at their end pass them on as a list, so the log shows them
+/// from `-v` on, or always as JSON.
+pub fn start(verbose: u8, format: LogFormat, bars: &Bars) {
+    let level = match (verbose, format) {
+        (0, LogFormat::Text) => LevelFilter::ERROR,
+        (0, LogFormat::Json) => LevelFilter::WARN,
+        (1, _) => LevelFilter::INFO,
+        _ => LevelFilter::DEBUG,
+    };
+    let builder = tracing_subscriber::fmt().with_max_level(level).with_writer(AboveBars(bars.clone()));
+    match format {
+        LogFormat::Text => builder.with_ansi(io::IsTerminal::is_terminal(&io::stderr())).init(),
+        LogFormat::Json => builder.json().init(),
+    }
+}
+
+/// Writes above the progress bars, so that neither spoils the other.
+struct AboveBars(Bars);
+
+impl<'a> MakeWriter<'a> for AboveBars {
+    type Writer = AboveBarsWriter<'a>;
+
+    fn make_writer(&'a self) -> Self::Writer {
+        AboveBarsWriter(&self.0)
+    }
+}
+
+struct AboveBarsWriter<'a>(&'a Bars);
+
+impl Write for AboveBarsWriter<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.above(|| io::stderr().write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        io::stderr().flush()
+    }
+}

@@ -1,0 +1,26 @@
+//! Naming places on a card in messages.
+
+use std::path::Path;
+
+use model::{Problem, Stage};
+
+/// A card, as messages name it: `cards/SESSION` in a study, else the folder's name.
+#[derive(Debug, Clone)]
+pub(crate) struct Place(String);
+
+impl Place {
+    pub fn of_card(card_dir: &Path) -> Self {
+        let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
+        let own = name(card_dir).unwrap_or_else(|| card_dir.display().to_string());
+        match card_dir.parent().and_then(name) {
+            Some(parent) if parent == "cards" => Self(format!("cards/{own}")),
+            _ => Self(own),
+        }
+    }
+
+    /// A problem with a file of the card; with the card itself for an empty `file`.
+    pub fn problem(&self, code: &str, file: &str, fact: impl Into<String>, remedy: impl Into<String>) -> Problem {
+        let place = if file.is_empty() { self.0.clone() } else { format!("{}/{file}", self.0) };
+        Problem { stage: Stage::Ingest, code: code.to_owned(), place, fact: fact.into(), remedy: remedy.into() }
+    }
+}

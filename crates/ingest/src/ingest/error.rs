@@ -1,0 +1,99 @@
+//! Why a session cannot be ingested.
+
+use std::path::PathBuf;
+
+use model::CameraSpecError;
+
+use crate::card::PatternError;
+use crate::config::ConfigError;
+use crate::mcap_file::WriteError;
+use crate::mcap_file::metadata::MetadataError;
+use crate::parse::PacketError;
+
+/// Why a session cannot be ingested at all.
+#[derive(Debug, thiserror::Error)]
+pub enum IngestError {
+    /// There is no card, or it cannot be read.
+    #[error("session '{session}': no SD card in {card_dir}: {source}; copy the card into that folder")]
+    NoCard {
+        /// The session.
+        session: String,
+        /// Where the card should be.
+        card_dir: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// No file of the card fits the profile.
+    #[error(
+        "session '{session}': none of the {files} files in {card_dir} fits profile '{profile}' ({patterns}); check the \
+         device profile, and that the card's own top folder was copied, not a folder around it"
+    )]
+    NothingFits {
+        /// The session.
+        session: String,
+        /// The card.
+        card_dir: PathBuf,
+        /// Files on it.
+        files: usize,
+        /// Name of the profile.
+        profile: String,
+        /// The profile's patterns.
+        patterns: String,
+    },
+    /// The profile contradicts itself.
+    #[error(transparent)]
+    Profile(#[from] ConfigError),
+    /// A pattern of the profile.
+    #[error(transparent)]
+    Pattern(PatternError),
+    /// A layout of the profile.
+    #[error("device profile: {0}")]
+    Layout(#[from] PacketError),
+    /// The camera contradicts itself.
+    #[error("camera: {0}")]
+    Camera(#[from] CameraSpecError),
+    /// The MCAP file cannot be written.
+    #[error("cannot write {path}: {source}; check free space and permissions")]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What went wrong.
+        source: WriteError,
+    },
+    /// The metadata cannot be written as text.
+    #[error(transparent)]
+    Metadata(#[from] MetadataError),
+    /// The key cannot be written as text.
+    #[error("key of the inputs: {0}")]
+    Key(serde_json::Error),
+}
+
+impl IngestError {
+    /// Stable code, for the status of a session.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NoCard { .. } => "missing_card",
+            Self::NothingFits { .. } => "card_does_not_fit_profile",
+            Self::Profile(_) | Self::Pattern(_) | Self::Layout(_) => "bad_profile",
+            Self::Camera(_) => "bad_camera",
+            Self::Write { .. } | Self::Metadata(_) | Self::Key(_) => "mcap_not_written",
+        }
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Self::NoCard { .. } => "copy the SD card into that folder, or remove the session",
+            Self::NothingFits { .. } => {
+                "check the device profile, and that the card's own top folder was copied, not a folder around it"
+            }
+            Self::Profile(_) | Self::Pattern(_) | Self::Layout(_) => "correct the device profile (docs/devices.md)",
+            Self::Camera(_) => "correct the camera file (docs/devices.md)",
+            Self::Write { .. } | Self::Metadata(_) | Self::Key(_) => {
+                "check free space and permissions of the work folder"
+            }
+        }
+    }
+}

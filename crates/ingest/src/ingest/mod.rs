@@ -1,0 +1,109 @@
+//! From a card to an MCAP file.
+
+mod error;
+mod run;
+
+pub use error::IngestError;
+
+use std::path::{Path, PathBuf};
+
+use jiff::tz::TimeZone;
+use model::CameraSpec;
+
+use crate::card::{Card, Place};
+use crate::key;
+use crate::profile::Profile;
+use crate::progress::IngestProgress;
+use crate::summary::IngestSummary;
+use run::Run;
+
+/// What one session is ingested from.
+#[derive(Debug, Clone)]
+pub struct SessionSource {
+    /// Name of the session.
+    pub session: String,
+    /// The card as it was copied.
+    pub card_dir: PathBuf,
+    /// What the device writes.
+    pub profile: Profile,
+    /// The camera of this session.
+    pub camera_spec: CameraSpec,
+    /// For image times that name no zone.
+    pub time_zone: TimeZone,
+    /// Program and version, for the file's metadata.
+    pub program: String,
+}
+
+/// What [`ingest_if_changed`] did.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ingested {
+    /// The MCAP file was made from the same input by the same ingest; nothing was written.
+    Current,
+    /// The MCAP file is new.
+    Fresh(Box<IngestSummary>),
+}
+
+impl SessionSource {
+    pub(crate) fn list_card(&self) -> Result<Card, IngestError> {
+        Card::list(&self.card_dir).map_err(|source| IngestError::NoCard {
+            session: self.session.clone(),
+            card_dir: self.card_dir.clone(),
+            source,
+        })
+    }
+}
+
+/// Ingests a session unless `out` was made from the same input. The card is hashed beforehand only if `out` exists.
+///
+/// # Errors
+/// As [`ingest_session`].
+pub fn ingest_if_changed(
+    source: &SessionSource,
+    out: &Path,
+    progress: &dyn IngestProgress,
+) -> Result<Ingested, IngestError> {
+    if out.is_file() && key::ingest_is_current(out, &key::inputs_key_with(source, progress)?) {
+        return Ok(Ingested::Current);
+    }
+    ingest_session(source, out, progress).map(|summary| Ingested::Fresh(Box::new(summary)))
+}
+
+/// Writes the MCAP file of a session. `out` is there whole or not at all: it is written under another name in the same
+/// folder, made durable and renamed. Memory is bounded by a packet, a chunk and an image. Equal input gives equal bytes.
+///
+/// Bad files do not stop it; the summary and the MCAP file list what was lost.
+///
+/// # Errors
+/// [`IngestError`] when nothing of the session can be used, or `out` cannot be written.
+pub fn ingest_session(
+    source: &SessionSource,
+    out: &Path,
+    progress: &dyn IngestProgress,
+) -> Result<IngestSummary, IngestError> {
+    source.profile.check(Path::new("device profile"))?;
+    let camera = source.camera_spec.camera()?;
+    let card = source.list_card()?;
+    let place = Place::of_card(&source.card_dir);
+    let bytes = key::input_files(&card, &source.profile)?.iter().map(|file| file.bytes).sum();
+    progress.begin(bytes);
+    tracing::debug!(session = source.session, bytes, "ingest");
+
+    let mut run = Run::new(source, out, &place, progress)?;
+    run.problems.extend(card.problems.iter().cloned());
+    run.sensors(&card)?;
+    let entries = run.images(&card)?;
+    if run.inputs.sha256.is_empty() {
+        return Err(nothing_fits(source, &card));
+    }
+    run.finish(&entries, &camera)
+}
+
+fn nothing_fits(source: &SessionSource, card: &Card) -> IngestError {
+    IngestError::NothingFits {
+        session: source.session.clone(),
+        card_dir: source.card_dir.clone(),
+        files: card.files.len(),
+        profile: source.profile.name.clone(),
+        patterns: key::all_patterns(&source.profile).join(" "),
+    }
+}

@@ -1,0 +1,189 @@
+//! The ingest of one session, step by step.
+
+use std::path::Path;
+
+use model::{Camera, FrameReason, Problem, UtcNs};
+
+use super::{IngestError, SessionSource};
+use crate::card::{Card, Inputs, Patterns, Place, Stream, TakenImage, read_image};
+use crate::key::{self, INGEST_VERSION};
+use crate::mcap_file::metadata::Facts;
+use crate::mcap_file::{SessionWriter, WriteError};
+use crate::profile::Images;
+use crate::progress::IngestProgress;
+use crate::sample::Sample;
+use crate::summary::{Counts, DroppedImage, ImageEntry, IngestSummary};
+
+/// The ingest of one session under way.
+pub(super) struct Run<'a> {
+    source: &'a SessionSource,
+    out: &'a Path,
+    place: &'a Place,
+    progress: &'a dyn IngestProgress,
+    writer: SessionWriter,
+    pub inputs: Inputs,
+    pub problems: Vec<Problem>,
+    counts: Counts,
+    dropped: Vec<DroppedImage>,
+}
+
+impl<'a> Run<'a> {
+    pub fn new(
+        source: &'a SessionSource,
+        out: &'a Path,
+        place: &'a Place,
+        progress: &'a dyn IngestProgress,
+    ) -> Result<Self, IngestError> {
+        Ok(Self {
+            source,
+            out,
+            place,
+            progress,
+            writer: SessionWriter::create(out).map_err(|error| write_error(out, error))?,
+            inputs: Inputs::default(),
+            problems: Vec::new(),
+            counts: Counts::default(),
+            dropped: Vec::new(),
+        })
+    }
+
+    /// Writes the samples of all sensors, merged by time.
+    pub fn sensors(&mut self, card: &Card) -> Result<(), IngestError> {
+        let mut streams = self.streams(card)?;
+        loop {
+            let next = streams.iter_mut().filter_map(|stream| stream.peek().map(|sample| (sample, stream)));
+            let Some((sample, stream)) = next.min_by_key(|(sample, _)| sample.time()) else { break };
+            stream.advance();
+            match sample {
+                Sample::Acceleration { .. } => self.counts.acceleration += 1,
+                Sample::Range { .. } => self.counts.range += 1,
+            }
+            self.writer.sample(&sample).map_err(|error| write_error(self.out, error))?;
+        }
+        for stream in streams {
+            self.problems.extend(stream.problems);
+            self.inputs.bytes += stream.inputs.bytes;
+            self.inputs.sha256.extend(stream.inputs.sha256);
+        }
+        Ok(())
+    }
+
+    fn streams(&mut self, card: &Card) -> Result<Vec<Stream<'a>>, IngestError> {
+        let profile = &self.source.profile;
+        let mut streams = Vec::new();
+        match &profile.acceleration {
+            Some(declared) => {
+                let files = card.fitting(&Patterns::new(&declared.files).map_err(IngestError::Pattern)?);
+                self.report_absent("accelerometer", &declared.files, files.is_empty());
+                streams.push(Stream::acceleration(declared, files, self.place, self.progress)?);
+            }
+            None => self.report_undeclared("acceleration"),
+        }
+        match &profile.range {
+            Some(declared) => {
+                let files = card.fitting(&Patterns::new(&declared.files).map_err(IngestError::Pattern)?);
+                self.report_absent("range sensor", &declared.files, files.is_empty());
+                streams.push(Stream::range(declared, files, self.place, self.progress)?);
+            }
+            None => self.report_undeclared("range"),
+        }
+        Ok(streams)
+    }
+
+    /// Writes the images in the order of their names; returns what was written, in that order.
+    pub fn images(&mut self, card: &Card) -> Result<Vec<ImageEntry>, IngestError> {
+        let source = self.source;
+        let Some(Images { files, time }) = &source.profile.images else {
+            self.report_undeclared("images");
+            return Ok(Vec::new());
+        };
+        let fitting = card.fitting(&Patterns::new(files).map_err(IngestError::Pattern)?);
+        self.report_absent("camera", files, fitting.is_empty());
+        let mut entries = Vec::new();
+        for file in &fitting {
+            let camera = &source.camera_spec;
+            match read_image(file, time, &source.time_zone, camera, &mut self.inputs, self.progress) {
+                Ok(TakenImage { entry, encoding, bytes }) => {
+                    self.writer.image(entry.time, encoding, bytes).map_err(|error| write_error(self.out, error))?;
+                    entries.push(entry);
+                }
+                Err(dropped) => self.dropped.push(dropped),
+            }
+        }
+        self.counts.images = entries.len() as u64;
+        self.counts.dropped_images = self.dropped.len() as u64;
+        self.report_dropped();
+        Ok(entries)
+    }
+
+    /// Writes what is known only at the end, and gives the file its name.
+    pub fn finish(mut self, entries: &[ImageEntry], camera: &Camera) -> Result<IngestSummary, IngestError> {
+        // A session without any message still has its camera; its time then says 1970.
+        let start = self.writer.first_time().unwrap_or(UtcNs(0));
+        let lists = self.writer.image_list(entries).and_then(|()| self.writer.calibration(camera, start));
+        lists.map_err(|error| write_error(self.out, error))?;
+        let facts = Facts {
+            session: self.source.session.clone(),
+            program: self.source.program.clone(),
+            ingest_version: INGEST_VERSION,
+            key: key::key_of(self.source, &self.inputs)?,
+            time_zone: key::zone_name(&self.source.time_zone),
+            counts: self.counts,
+            profile: self.source.profile.clone(),
+            camera: self.source.camera_spec.clone(),
+            inputs_sha256: self.inputs.sha256,
+            dropped_images: self.dropped,
+            problems: self.problems,
+        };
+        self.writer.finish(facts.to_records()?).map_err(|error| write_error(self.out, error))?;
+        Ok(IngestSummary {
+            session: facts.session,
+            key: facts.key,
+            files: facts.inputs_sha256.len(),
+            bytes: self.inputs.bytes,
+            images: facts.counts.images,
+            counts: facts.counts,
+            dropped_images: facts.dropped_images,
+            problems: facts.problems,
+        })
+    }
+
+    fn report_absent(&mut self, sensor: &str, patterns: &[String], is_absent: bool) {
+        if is_absent {
+            let fact = format!("no files of the {sensor}: nothing fits {}", patterns.join(" "));
+            let remedy = "copy the whole card, or correct the patterns in the device profile (case matters)";
+            self.problems.push(self.place.problem("no_files", "", fact, remedy));
+        }
+    }
+
+    fn report_undeclared(&mut self, table: &str) {
+        let fact = format!("device profile '{}' declares no [{table}]", self.source.profile.name);
+        let remedy = format!("sizes need it: add a table [{table}] to the profile if the device writes such files");
+        self.problems.push(self.place.problem("not_declared", "", fact, remedy));
+    }
+
+    /// One problem per reason, at the first image that has it.
+    fn report_dropped(&mut self) {
+        for reason in FrameReason::ALL {
+            let mut of_reason = self.dropped.iter().filter(|dropped| dropped.reason == *reason);
+            let Some(first) = of_reason.next() else { continue };
+            let fact = match of_reason.count() {
+                0 => format!("the image cannot be used: {}", first.detail),
+                more => format!("{} images cannot be used; this one: {}", more + 1, first.detail),
+            };
+            self.problems.push(self.place.problem(reason.code(), &first.file, fact, remedy_of(*reason)));
+        }
+    }
+}
+
+fn remedy_of(reason: FrameReason) -> &'static str {
+    match reason {
+        FrameReason::WrongSize => "give the camera that took these pictures: camera in study.toml or session.toml",
+        FrameReason::NoTime => "correct images.time in the device profile, or the file's name",
+        _ => "copy the file from the card again; if it stays so, the image is lost",
+    }
+}
+
+fn write_error(path: &Path, source: WriteError) -> IngestError {
+    IngestError::Write { path: path.to_owned(), source }
+}

@@ -1,0 +1,90 @@
+//! What an MCAP file was made from, as one hash: whether ingest must run again.
+
+use std::path::Path;
+
+use jiff::tz::TimeZone;
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use crate::card::{Card, CardFile, Inputs, Patterns, open_hashing};
+use crate::ingest::{IngestError, SessionSource};
+use crate::mcap_file::metadata::toml_text;
+use crate::profile::Profile;
+use crate::progress::{IngestProgress, NoProgress};
+use crate::read::SessionReader;
+
+/// Version of what ingest writes. A change of layout or meaning gives another number, and all sessions are ingested anew.
+pub const INGEST_VERSION: u32 = 1;
+
+/// SHA-256 over the session's name, the profile, the camera, the time zone, [`INGEST_VERSION`], and name and SHA-256 of
+/// every file that the profile's patterns fit. Reads all of them.
+///
+/// # Errors
+/// [`IngestError`] when there is no card, or the profile contradicts itself.
+pub fn inputs_key(source: &SessionSource) -> Result<String, IngestError> {
+    inputs_key_with(source, &NoProgress)
+}
+
+pub(crate) fn inputs_key_with(source: &SessionSource, progress: &dyn IngestProgress) -> Result<String, IngestError> {
+    source.profile.check(Path::new("device profile"))?;
+    let card = source.list_card()?;
+    let files = input_files(&card, &source.profile)?;
+    progress.begin(files.iter().map(|file| file.bytes).sum());
+    let mut inputs = Inputs::default();
+    for file in files {
+        match open_hashing(file, progress) {
+            // An unreadable file is recorded as such, here as in ingest.
+            Ok(reader) => drop(inputs.add(file, reader)),
+            Err(_) => inputs.add_unreadable(file),
+        }
+    }
+    key_of(source, &inputs)
+}
+
+/// Whether `out` is an MCAP file with that key. False for anything that is not such a file.
+#[must_use]
+pub fn ingest_is_current(out: &Path, key: &str) -> bool {
+    SessionReader::open(out).is_ok_and(|reader| reader.metadata().key == key)
+}
+
+#[derive(Serialize)]
+struct KeyParts<'a> {
+    ingest_version: u32,
+    session: &'a str,
+    profile: String,
+    camera: String,
+    time_zone: String,
+    inputs: &'a std::collections::BTreeMap<String, String>,
+}
+
+pub(crate) fn key_of(source: &SessionSource, inputs: &Inputs) -> Result<String, IngestError> {
+    let parts = KeyParts {
+        ingest_version: INGEST_VERSION,
+        session: &source.session,
+        profile: toml_text("profile", &source.profile)?,
+        camera: toml_text("camera", &source.camera_spec)?,
+        time_zone: zone_name(&source.time_zone),
+        inputs: &inputs.sha256,
+    };
+    let text = serde_json::to_vec(&parts).map_err(IngestError::Key)?;
+    Ok(format!("{:x}", Sha256::digest(text)))
+}
+
+/// The IANA name; for zones without one, their rule.
+pub(crate) fn zone_name(zone: &TimeZone) -> String {
+    zone.iana_name().map_or_else(|| format!("{zone:?}"), str::to_owned)
+}
+
+/// All patterns of a profile.
+pub(crate) fn all_patterns(profile: &Profile) -> Vec<String> {
+    let acceleration = profile.acceleration.iter().flat_map(|stream| &stream.files);
+    let range = profile.range.iter().flat_map(|stream| &stream.files);
+    let images = profile.images.iter().flat_map(|images| &images.files);
+    acceleration.chain(range).chain(images).cloned().collect()
+}
+
+/// The files that the profile's patterns fit, each once.
+pub(crate) fn input_files<'c>(card: &'c Card, profile: &Profile) -> Result<Vec<&'c CardFile>, IngestError> {
+    let patterns = Patterns::new(&all_patterns(profile)).map_err(IngestError::Pattern)?;
+    Ok(card.files.iter().filter(|file| patterns.fits(&file.name)).collect())
+}

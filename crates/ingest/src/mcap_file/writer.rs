@@ -1,0 +1,187 @@
+//! Writes the MCAP file of a session under a temporary name, then renames it.
+
+use std::collections::BTreeMap;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use foxglove::messages::{CompressedImage, Timestamp};
+use mcap::records::{MessageHeader, Metadata};
+use mcap::{Compression, McapError, WriteOptions, Writer};
+use model::{Camera, UtcNs};
+use tempfile::NamedTempFile;
+
+use super::calibration::calibration;
+use super::messages::{Acceleration, ImageFile, Range};
+use super::metadata::Records;
+use super::{CAMERA_FRAME, SENSOR_CHUNK_BYTES, topic};
+use crate::parse::image_header::Encoding;
+use crate::sample::Sample;
+use crate::summary::ImageEntry;
+
+/// Fixed, so that equal input gives equal bytes whatever the version of the library.
+const LIBRARY: &str = "aim-batch-ingest";
+
+/// A sensor chunk is closed where time goes back by more, so that no chunk spans the whole session because of one wrong
+/// stamp: the reader holds all chunks that overlap a time.
+const LONGEST_STEP_BACK_S: f64 = 1.0;
+
+/// Why the MCAP file cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteError {
+    /// The system refuses.
+    #[error(transparent)]
+    Io(#[from] std::io::Error),
+    /// The MCAP library refuses.
+    #[error(transparent)]
+    Mcap(#[from] McapError),
+    /// A message has no schema: a defect of the program.
+    #[error("the message type of {0} has no schema")]
+    NoSchema(&'static str),
+}
+
+/// Sensor messages come first, in chunks of their own, then one chunk per image, then the list of images: a pass over the
+/// sensors never reads images.
+pub(crate) struct SessionWriter {
+    mcap: Writer<BufWriter<NamedTempFile>>,
+    channels: BTreeMap<&'static str, u16>,
+    out: PathBuf,
+    encoded: Vec<u8>,
+    first_time: Option<UtcNs>,
+    last_time: Option<UtcNs>,
+    sequences: BTreeMap<&'static str, u32>,
+}
+
+impl SessionWriter {
+    pub fn create(out: &Path) -> Result<Self, WriteError> {
+        let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        std::fs::create_dir_all(folder)?;
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".ingest-").suffix(".partial");
+        #[cfg(unix)]
+        {
+            // A temporary file is its owner's alone; the MCAP file has the permissions of any new file.
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(std::fs::Permissions::from_mode(0o666));
+        }
+        let file = BufWriter::with_capacity(256 * 1024, builder.tempfile_in(folder)?);
+        // JPEG does not shrink; lz4 costs little on it, and halves sensor messages.
+        let options = WriteOptions::new()
+            .compression(Some(Compression::Lz4))
+            .chunk_size(Some(SENSOR_CHUNK_BYTES))
+            .library(LIBRARY);
+        Ok(Self {
+            mcap: options.create(file)?,
+            channels: BTreeMap::new(),
+            out: out.to_owned(),
+            encoded: Vec::new(),
+            first_time: None,
+            last_time: None,
+            sequences: BTreeMap::new(),
+        })
+    }
+
+    /// Time of the earliest message so far.
+    pub fn first_time(&self) -> Option<UtcNs> {
+        self.first_time
+    }
+
+    pub fn sample(&mut self, sample: &Sample) -> Result<(), WriteError> {
+        let time = sample.time();
+        if self.last_time.is_some_and(|last| last.seconds_since(time) > LONGEST_STEP_BACK_S) {
+            self.mcap.flush()?;
+        }
+        self.last_time = Some(time);
+        match *sample {
+            Sample::Acceleration { time, g: [x_g, y_g, z_g] } => {
+                self.write(topic::ACCELERATION, time, &Acceleration { x_g, y_g, z_g })?;
+            }
+            Sample::Range { time, mm } => {
+                self.write(topic::RANGE, time, &Range { range_mm: mm })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes an image into a chunk of its own. Its sequence number goes into the list of images.
+    pub fn image(&mut self, time: UtcNs, encoding: Encoding, bytes: Vec<u8>) -> Result<u32, WriteError> {
+        self.mcap.flush()?;
+        let message = CompressedImage {
+            timestamp: timestamp(time),
+            frame_id: CAMERA_FRAME.to_owned(),
+            data: bytes.into(),
+            format: encoding.name().to_owned(),
+        };
+        self.write(topic::IMAGE, time, &message)
+    }
+
+    /// Writes the list of images, in the order of their sequence numbers from 0.
+    pub fn image_list(&mut self, entries: &[ImageEntry]) -> Result<(), WriteError> {
+        self.mcap.flush()?;
+        for entry in entries {
+            let message = ImageFile {
+                file: entry.file.clone(),
+                bytes: entry.bytes,
+                width_px: entry.width_px,
+                height_px: entry.height_px,
+            };
+            self.write(topic::FILE, entry.time, &message)?;
+        }
+        Ok(())
+    }
+
+    pub fn calibration(&mut self, camera: &Camera, time: UtcNs) -> Result<(), WriteError> {
+        self.write(topic::CALIBRATION, time, &calibration(camera, time)).map(|_| ())
+    }
+
+    /// Writes the metadata, makes the file durable and gives it its name.
+    pub fn finish(mut self, records: Records) -> Result<(), WriteError> {
+        for (name, metadata) in records {
+            self.mcap.write_metadata(&Metadata { name, metadata })?;
+        }
+        self.mcap.finish()?;
+        let file = self.mcap.into_inner().into_inner().map_err(std::io::IntoInnerError::into_error)?;
+        file.as_file().sync_all()?;
+        file.persist(&self.out).map_err(|error| error.error)?;
+        #[cfg(unix)]
+        if let Some(folder) = self.out.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            std::fs::File::open(folder)?.sync_all()?; // the rename itself
+        }
+        Ok(())
+    }
+
+    fn write<M: prost::Message + foxglove::Encode>(
+        &mut self,
+        topic: &'static str,
+        time: UtcNs,
+        message: &M,
+    ) -> Result<u32, WriteError> {
+        let channel_id = self.channel::<M>(topic)?;
+        let sequence = self.sequences.entry(topic).or_default();
+        let log_time = time.0.max(0).unsigned_abs(); // ingest refuses times before 1970
+        let header = MessageHeader { channel_id, sequence: *sequence, log_time, publish_time: log_time };
+        *sequence = sequence.wrapping_add(1);
+        self.encoded.clear();
+        message.encode_raw(&mut self.encoded);
+        self.mcap.write_to_known_channel(&header, &self.encoded)?;
+        self.first_time = Some(self.first_time.map_or(time, |first| first.min(time)));
+        Ok(header.sequence)
+    }
+
+    fn channel<M: foxglove::Encode>(&mut self, topic: &'static str) -> Result<u16, WriteError> {
+        if let Some(id) = self.channels.get(topic) {
+            return Ok(*id);
+        }
+        let schema = M::get_schema().ok_or(WriteError::NoSchema(topic))?;
+        let schema_id = self.mcap.add_schema(&schema.name, &schema.encoding, &schema.data)?;
+        let id = self.mcap.add_channel(schema_id, topic, &M::get_message_encoding(), &BTreeMap::new())?;
+        self.channels.insert(topic, id);
+        Ok(id)
+    }
+}
+
+/// None after the year 2106, where the message's 32-bit seconds end; the MCAP's own time goes on to 2262.
+pub(super) fn timestamp(time: UtcNs) -> Option<Timestamp> {
+    let seconds = u32::try_from(time.0.div_euclid(1_000_000_000)).ok()?;
+    let ns = u32::try_from(time.0.rem_euclid(1_000_000_000)).ok()?;
+    Timestamp::new_checked(seconds, ns)
+}

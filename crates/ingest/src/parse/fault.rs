@@ -1,0 +1,102 @@
+//! What can be wrong with a sensor file, with what to do about it.
+
+/// What is wrong with a sensor file. The rest of the file is used.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Fault {
+    /// The file ends inside a packet.
+    #[error(
+        "the file ends inside packet {packet} at byte {offset}: expected {expected} bytes, got {got}; the packets before are used"
+    )]
+    TruncatedPacket {
+        /// Number of the packet, from 1.
+        packet: u64,
+        /// Where it begins.
+        offset: u64,
+        /// Bytes of a whole packet.
+        expected: usize,
+        /// Bytes there are.
+        got: usize,
+    },
+    /// Packets whose stamp is no time.
+    #[error(
+        "{packets} packets have a stamp that is not a time between 1970 and 2262, the first at byte {first_offset}: {first}"
+    )]
+    BadStamp {
+        /// How many.
+        packets: u64,
+        /// Where the first one begins.
+        first_offset: u64,
+        /// What the first stamp is.
+        first: String,
+    },
+    /// A column that the profile names is not in the first line.
+    #[error("the first line has no column '{column}'; it has: {found}")]
+    MissingColumn {
+        /// The column.
+        column: String,
+        /// The columns there are.
+        found: String,
+    },
+    /// Rows that cannot be read.
+    #[error("{rows} rows cannot be read and are left out, the first in line {first_line}: {first}")]
+    BadRows {
+        /// How many.
+        rows: u64,
+        /// Line of the first one, from 1.
+        first_line: u64,
+        /// What is wrong with the first one.
+        first: String,
+    },
+    /// A line too long for a table of numbers, such as a block of zeros.
+    #[error("line {line} is longer than {limit} bytes: from there on the file is not used")]
+    LongLine {
+        /// The line, from 1.
+        line: u64,
+        /// The longest that is read.
+        limit: usize,
+    },
+    /// The system cannot read on.
+    #[error("cannot be read from byte {offset} on: {message}")]
+    Unreadable {
+        /// Where reading stopped.
+        offset: u64,
+        /// What the system says.
+        message: String,
+    },
+    /// Nothing usable in the file.
+    #[error("the file holds no samples")]
+    NoSamples,
+}
+
+impl Fault {
+    /// Stable code, snake case.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::TruncatedPacket { .. } => "truncated_packet",
+            Self::BadStamp { .. } => "bad_stamp",
+            Self::MissingColumn { .. } => "missing_column",
+            Self::BadRows { .. } => "bad_rows",
+            Self::LongLine { .. } => "long_line",
+            Self::Unreadable { .. } => "unreadable_file",
+            Self::NoSamples => "no_samples",
+        }
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Self::TruncatedPacket { .. } => {
+                "copy the file from the card again; if it stays so, the device was switched off while writing, or the \
+                 profile's header, channels or samples do not fit"
+            }
+            Self::BadStamp { .. } => "check header, endian and the stamp's type in the device profile",
+            Self::MissingColumn { .. } => "correct the column's name in the device profile, or the file",
+            Self::BadRows { .. } => "look at that line; time and values are plain decimal numbers",
+            Self::LongLine { .. } => "copy the file from the card again; a damaged card leaves blocks of zeros",
+            Self::Unreadable { .. } => "copy the file from the card again; check its permissions",
+            Self::NoSamples => "remove the file if the device wrote it empty, else copy it from the card again",
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! What an image file says of itself before its pixels.
+
+use std::io::Cursor;
+
+use image::{ImageFormat, ImageReader};
+
+/// The encodings that are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Encoding {
+    /// JPEG.
+    Jpeg,
+    /// PNG.
+    Png,
+}
+
+impl Encoding {
+    /// As foxglove.CompressedImage names it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Jpeg => "jpeg",
+            Self::Png => "png",
+        }
+    }
+}
+
+/// An image's header.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ImageHeader {
+    /// Encoding.
+    pub encoding: Encoding,
+    /// Width.
+    pub width_px: u32,
+    /// Height.
+    pub height_px: u32,
+}
+
+/// Why bytes are no image.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum HeaderError {
+    /// Neither JPEG nor PNG.
+    #[error("begins with {0}, not like a JPEG (ff d8 ff) or PNG (89 50 4e 47)")]
+    Magic(String),
+    /// Begins like an image, but its header cannot be read.
+    #[error("the {0} header is damaged: {1}")]
+    Damaged(&'static str, String),
+}
+
+/// Reads the header of a JPEG or PNG file; the pixels are not decoded.
+///
+/// # Errors
+/// [`HeaderError`] when the bytes are no image, or the header is cut off or damaged.
+pub fn read(bytes: &[u8]) -> Result<ImageHeader, HeaderError> {
+    let (encoding, format) = if bytes.starts_with(&[0xff, 0xd8, 0xff]) {
+        (Encoding::Jpeg, ImageFormat::Jpeg)
+    } else if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+        (Encoding::Png, ImageFormat::Png)
+    } else {
+        let start: Vec<String> = bytes.iter().take(4).map(|byte| format!("{byte:02x}")).collect();
+        return Err(HeaderError::Magic(start.join(" ")));
+    };
+    match ImageReader::with_format(Cursor::new(bytes), format).into_dimensions() {
+        Ok((width_px, height_px)) => Ok(ImageHeader { encoding, width_px, height_px }),
+        Err(error) => Err(HeaderError::Damaged(encoding.name(), error.to_string())),
+    }
+}

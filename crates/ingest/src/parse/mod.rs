@@ -1,0 +1,17 @@
+//! Parsers of untrusted bytes, apart from the card's I/O: byte slices and [`std::io::Read`] in, samples and facts out.
+//! None of them panics on any input (see `tests/arbitrary_bytes.rs`).
+
+mod convert;
+mod csv_file;
+mod decimal;
+mod fault;
+pub mod image_header;
+pub mod image_time;
+mod packet_file;
+mod packets;
+
+pub use convert::Converter;
+pub use csv_file::CsvSamples;
+pub use fault::Fault;
+pub use packet_file::PacketSamples;
+pub use packets::{PacketError, PacketParser};

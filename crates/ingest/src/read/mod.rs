@@ -1,0 +1,178 @@
+//! Reads the MCAP file of a session, one chunk at a time.
+
+mod chunk;
+mod error;
+mod samples;
+mod summary;
+
+pub use error::ReadError;
+pub use samples::Samples;
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use model::{CameraSpec, Problem, UtcNs};
+
+use crate::mcap_file::messages::ImageFile;
+use crate::mcap_file::metadata::Facts;
+use crate::mcap_file::topic;
+use crate::profile::Profile;
+use crate::sample::Sample;
+use crate::summary::{Counts, DroppedImage, ImageEntry};
+use error::Damage;
+use summary::Index;
+
+/// What the MCAP file of a session says of itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SessionMetadata {
+    /// Name of the session.
+    pub session: String,
+    /// Program and version that wrote the file.
+    pub program: String,
+    /// Version of the ingest that wrote the file.
+    pub ingest_version: u32,
+    /// Key of what went in; see [`inputs_key`](crate::inputs_key).
+    pub key: String,
+    /// Time zone in which times without one were read.
+    pub time_zone: String,
+    /// Device profile, resolved.
+    pub profile: Profile,
+    /// Camera pitch minus sensor pitch as the profile declares it, degrees.
+    pub mount_pitch_deg: f64,
+    /// Camera.
+    pub camera: CameraSpec,
+    /// SHA-256 of every input file, by its path relative to the card; `unreadable` where it could not be read.
+    pub inputs_sha256: BTreeMap<String, String>,
+    /// Samples and images in the file.
+    pub counts: Counts,
+    /// Images of the card that could not be used, sorted by file.
+    pub dropped_images: Vec<DroppedImage>,
+    /// What was wrong with the card.
+    pub problems: Vec<Problem>,
+}
+
+/// Reads the MCAP file of a session. Memory is bounded by the chunks that overlap in time, and one image.
+#[derive(Debug)]
+pub struct SessionReader {
+    path: PathBuf,
+    file: File,
+    index: Index,
+    metadata: SessionMetadata,
+    /// The list of images, once it has been read: entry and sequence number.
+    images: Option<Vec<(ImageEntry, u32)>>,
+}
+
+impl SessionReader {
+    /// Opens a file and reads its index and metadata.
+    ///
+    /// # Errors
+    /// [`ReadError`] when the file cannot be read, is damaged, or is not of this program.
+    pub fn open(path: &Path) -> Result<Self, ReadError> {
+        let file = File::open(path).map_err(|error| ReadError::new(path, Damage::Io(error)))?;
+        let (index, records) = Index::read(&file).map_err(|damage| ReadError::new(path, damage))?;
+        let facts = Facts::from_records(records).map_err(|error| ReadError::new(path, error.into()))?;
+        let metadata = SessionMetadata {
+            session: facts.session,
+            program: facts.program,
+            ingest_version: facts.ingest_version,
+            key: facts.key,
+            time_zone: facts.time_zone,
+            mount_pitch_deg: facts.profile.mount_pitch_deg,
+            profile: facts.profile,
+            camera: facts.camera,
+            inputs_sha256: facts.inputs_sha256,
+            counts: facts.counts,
+            dropped_images: facts.dropped_images,
+            problems: facts.problems,
+        };
+        Ok(Self { path: path.to_owned(), file, index, metadata, images: None })
+    }
+
+    /// What the file says of itself.
+    #[must_use]
+    pub fn metadata(&self) -> &SessionMetadata {
+        &self.metadata
+    }
+
+    /// The images in order of time (of file where times are equal). No image is read.
+    ///
+    /// # Errors
+    /// [`ReadError`] when the file is damaged.
+    pub fn images(&mut self) -> Result<Vec<ImageEntry>, ReadError> {
+        Ok(self.image_list()?.iter().map(|(entry, _)| entry.clone()).collect())
+    }
+
+    /// The bytes of an image as they were on the card. `file` as in [`ImageEntry::file`].
+    ///
+    /// # Errors
+    /// [`ReadError`] when there is no such image, or the file is damaged.
+    pub fn image_bytes(&mut self, file: &str) -> Result<Vec<u8>, ReadError> {
+        let listed = self.image_list()?.iter().find(|(entry, _)| entry.file == file);
+        let found = listed.map(|(entry, sequence)| (entry.time, *sequence));
+        let damage = match found {
+            Some((time, sequence)) => match self.image_at(time, sequence) {
+                Ok(Some(bytes)) => return Ok(bytes),
+                Ok(None) => Damage::NoImage(file.to_owned()),
+                Err(damage) => damage,
+            },
+            None => Damage::NoImage(file.to_owned()),
+        };
+        Err(ReadError::new(&self.path, damage))
+    }
+
+    /// All samples in order of time; after an error, none. At equal times they come in the order of the file.
+    pub fn samples(&mut self) -> Samples<'_> {
+        Samples::new(&self.path, &self.file, &self.index)
+    }
+
+    /// Calls `each` with all samples in order of time.
+    ///
+    /// # Errors
+    /// [`ReadError`] when the file is damaged; `each` has then been called with the samples before the damage.
+    pub fn for_each_sample(&mut self, mut each: impl FnMut(Sample)) -> Result<(), ReadError> {
+        self.samples().try_for_each(|sample| sample.map(&mut each))
+    }
+
+    fn image_list(&mut self) -> Result<&[(ImageEntry, u32)], ReadError> {
+        if self.images.is_none() {
+            let images = self.read_image_list().map_err(|damage| ReadError::new(&self.path, damage))?;
+            self.images = Some(images);
+        }
+        Ok(self.images.as_deref().unwrap_or_default())
+    }
+
+    fn read_image_list(&self) -> Result<Vec<(ImageEntry, u32)>, Damage> {
+        let mut images = Vec::new();
+        for chunk in self.index.chunks_of(&[topic::FILE]) {
+            chunk::for_each_message(&self.file, chunk, |header, data| {
+                if self.index.topic(header.channel_id) == Some(topic::FILE) {
+                    let ImageFile { file, bytes, width_px, height_px } = prost::Message::decode(data)?;
+                    let time = chunk::time_of(header)?;
+                    images.push((ImageEntry { file, time, bytes, width_px, height_px }, header.sequence));
+                }
+                Ok(())
+            })?;
+        }
+        images.sort_by(|(a, _), (b, _)| (a.time, &a.file).cmp(&(b.time, &b.file)));
+        Ok(images)
+    }
+
+    fn image_at(&self, time: UtcNs, sequence: u32) -> Result<Option<Vec<u8>>, Damage> {
+        let mut found = None;
+        for chunk in self.index.chunks_of(&[topic::IMAGE]).filter(|chunk| chunk.covers(time)) {
+            chunk::for_each_message(&self.file, chunk, |header, data| {
+                let is_image = self.index.topic(header.channel_id) == Some(topic::IMAGE);
+                if is_image && header.sequence == sequence && chunk::time_of(header)? == time {
+                    let image: foxglove::messages::CompressedImage = prost::Message::decode(data)?;
+                    found = Some(Vec::from(image.data));
+                }
+                Ok(())
+            })?;
+            if found.is_some() {
+                break;
+            }
+        }
+        Ok(found)
+    }
+}

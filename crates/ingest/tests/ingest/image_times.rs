@@ -1,0 +1,88 @@
+//! Image times from names and from EXIF.
+
+use aim_batch_ingest::parse::image_time::{TimeError, check_pattern, from_exif, from_name};
+use jiff::tz::TimeZone;
+use model::UtcNs;
+
+use crate::support::{NOON_S, jpeg, jpeg_with_exif, png};
+
+const SECOND: i64 = 1_000_000_000;
+
+fn chicago() -> TimeZone {
+    TimeZone::get("America/Chicago").unwrap()
+}
+
+#[test]
+fn a_pattern_that_ends_in_z_is_utc() {
+    let pattern = "%Y%m%dT%H%M%S%.fZ";
+    assert_eq!(check_pattern(pattern), Ok(()));
+    let expected = UtcNs(NOON_S * SECOND + 250_000_000);
+    for name in ["20250601T120000.25Z.JPG", "20250601T120000.250Z", "20250601T120000.25Z.jpeg"] {
+        assert_eq!(from_name(name, pattern, &chicago()), Ok(expected), "{name}");
+    }
+    assert_eq!(from_name("20250601T120000Z.JPG", pattern, &chicago()), Ok(UtcNs(NOON_S * SECOND)));
+    assert_eq!(from_name("20250601T120000Z.jpg", "%Y%m%dT%H%M%SZ.jpg", &chicago()), Ok(UtcNs(NOON_S * SECOND)));
+}
+
+#[test]
+fn a_pattern_without_zone_is_in_the_study_s_zone() {
+    let noon_in_chicago = UtcNs((NOON_S + 5 * 3600) * SECOND);
+    assert_eq!(from_name("IMG_20250601_120000.jpg", "IMG_%Y%m%d_%H%M%S", &chicago()), Ok(noon_in_chicago));
+    // A fraction is no extension.
+    let fraction = from_name("20250601T120000.125", "%Y%m%dT%H%M%S%.f", &chicago());
+    assert_eq!(fraction, Ok(UtcNs(noon_in_chicago.0 + 125_000_000)));
+}
+
+#[test]
+fn an_offset_or_posix_seconds_in_the_name_decide() {
+    let noon = Ok(UtcNs(NOON_S * SECOND));
+    assert_eq!(from_name("20250601T140000+0200.jpg", "%Y%m%dT%H%M%S%z", &chicago()), noon);
+    assert_eq!(from_name("1748779200.jpg", "%s", &chicago()), noon);
+}
+
+#[test]
+fn a_local_time_that_is_none_or_two_is_refused() {
+    let at = |name: &str| from_name(name, "%Y%m%dT%H%M%S", &chicago());
+    assert!(matches!(at("20251102T013000.jpg"), Err(TimeError::Ambiguous { .. })), "twice");
+    assert!(matches!(at("20250309T023000.jpg"), Err(TimeError::Ambiguous { .. })), "never");
+    assert!(at("20251102T003000.jpg").is_ok());
+}
+
+#[test]
+fn a_name_that_does_not_fit_says_so() {
+    let error = from_name("DSC001.JPG", "%Y%m%dT%H%M%S%.fZ", &TimeZone::UTC).unwrap_err();
+    assert!(error.to_string().starts_with("the name 'DSC001.JPG' does not fit '%Y%m%dT%H%M%S%.fZ'"), "{error}");
+    assert!(matches!(from_name("19690101T000000Z", "%Y%m%dT%H%M%SZ", &TimeZone::UTC), Err(TimeError::Range(_))));
+}
+
+#[test]
+fn patterns_that_give_no_time_are_refused() {
+    for pattern in ["%Y%m%d", "%Y%m%d_%H%M", "image", "%H%M%S", "%Q%", "%!"] {
+        assert!(check_pattern(pattern).is_err(), "{pattern}");
+    }
+    for pattern in ["%Y%m%dT%H%M%S", "%s", "IMG_%Y-%m-%d_%H-%M-%S", "%Y%m%dT%H%M%S%z"] {
+        assert_eq!(check_pattern(pattern), Ok(()), "{pattern}");
+    }
+}
+
+#[test]
+fn exif_gives_the_time_with_subseconds_and_offset() {
+    let local = Some("2025:06:01 12:00:00");
+    let time = |subsec, offset| from_exif(&jpeg_with_exif(local, subsec, offset), &chicago());
+    assert_eq!(time(None, None), Ok(UtcNs((NOON_S + 5 * 3600) * SECOND)), "the study's zone");
+    assert_eq!(time(Some("25"), Some("+00:00")), Ok(UtcNs(NOON_S * SECOND + 250_000_000)));
+    assert_eq!(time(Some("123456"), Some("-03:30")), Ok(UtcNs((NOON_S + 12_600) * SECOND + 123_456_000)));
+    assert_eq!(time(None, Some("   :  ")), Ok(UtcNs((NOON_S + 5 * 3600) * SECOND)), "a blank offset is none");
+}
+
+#[test]
+fn exif_without_a_usable_time_says_so() {
+    let error = |image: &[u8]| from_exif(image, &TimeZone::UTC).unwrap_err().to_string();
+    assert!(error(&jpeg_with_exif(None, Some("25"), None)).contains("no DateTimeOriginal"));
+    assert!(error(&jpeg_with_exif(Some("2025:13:01 12:00:00"), None, None)).contains("is no date and time"));
+    assert!(
+        error(&jpeg_with_exif(Some("2025:06:01 12:00:00"), None, Some("+02h00"))).starts_with("EXIF gives no time")
+    );
+    assert!(error(&jpeg(32, 24, 1)).starts_with("EXIF gives no time"));
+    assert!(error(&png(32, 24)).starts_with("EXIF gives no time"));
+}

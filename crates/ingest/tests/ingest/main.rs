@@ -1,0 +1,12 @@
+//! Tests of the crate from outside, as one binary.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod arbitrary_bytes;
+mod broken_cards;
+mod configuration;
+mod csv_files;
+mod damaged_mcap;
+mod image_times;
+mod packets;
+mod round_trip;
+mod support;

@@ -1,0 +1,173 @@
+//! What the uncertainty of the inputs does to a size: first-order propagation.
+
+use nalgebra::Vector2;
+
+use crate::camera::Camera;
+use crate::container::{Method, Quantity};
+use crate::marks::{Mark, ObjectMarks};
+use crate::measure::{Container, MeasureError, Measured, measure_as_seen, view_of_method};
+use crate::pose::Pose;
+use crate::view::View;
+
+/// Standard uncertainties (k = 1) of what goes into a size. The errors of pitch, roll, range and camera are taken as
+/// independent of each other, those of the marks' coordinates as independent of everything.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InputSigma {
+    /// Pitch: accelerometer (17 mg per degree; ADXL362 data sheet: zero-g offset of tens of mg) and mount offset.
+    pub pitch_rad: f64,
+    /// Roll, likewise.
+    pub roll_rad: f64,
+    /// Range, relative (VL53L0X data sheet: about 3 % uncalibrated).
+    pub range_relative: f64,
+    /// One coordinate of one marked point.
+    pub mark_px: f64,
+    /// Focal length, relative; both axes together.
+    pub focal_relative: f64,
+    /// Each coordinate of the principal point.
+    pub principal_px: f64,
+}
+
+/// Standard uncertainty of a size, by source.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SizeSigma {
+    /// From the pitch.
+    pub pitch_mm: f64,
+    /// From the roll; for [`Method::Paper`] about its assumption of zero roll.
+    pub roll_mm: f64,
+    /// From the range.
+    pub range_mm: f64,
+    /// From the marks.
+    pub marks_mm: f64,
+    /// From focal length and principal point.
+    pub camera_mm: f64,
+}
+
+impl SizeSigma {
+    /// The parts in quadrature.
+    #[must_use]
+    pub fn total_mm(&self) -> f64 {
+        [self.pitch_mm, self.roll_mm, self.range_mm, self.marks_mm, self.camera_mm]
+            .iter()
+            .map(|s| s * s)
+            .sum::<f64>()
+            .sqrt()
+    }
+}
+
+/// A size with its uncertainty.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// The size.
+    pub measured: Measured,
+    /// Its uncertainty; none where an input cannot be varied by its uncertainty (a ray then misses the table).
+    pub sigma: Option<SizeSigma>,
+}
+
+/// [`measure`](crate::measure()) with uncertainties, by central differences of one standard uncertainty of each input
+/// through the whole chain, so that a rim plane's own uncertainty reaches the diameter measured on it.
+#[must_use]
+pub fn estimate(
+    view: &View,
+    method: Method,
+    container: &Container,
+    marks: &ObjectMarks,
+    inputs: &InputSigma,
+) -> Vec<(Quantity, Result<Estimate, MeasureError>)> {
+    let chain = Chain { view: view_of_method(view, method), method, container, marks };
+    chain
+        .sizes(&chain.view, marks)
+        .into_iter()
+        .map(|(quantity, size)| {
+            (quantity, size.map(|measured| Estimate { measured, sigma: chain.sigma(quantity, inputs) }))
+        })
+        .collect()
+}
+
+struct Chain<'a> {
+    view: View,
+    method: Method,
+    container: &'a Container,
+    marks: &'a ObjectMarks,
+}
+
+impl Chain<'_> {
+    fn sizes(&self, view: &View, marks: &ObjectMarks) -> Vec<(Quantity, Result<Measured, MeasureError>)> {
+        measure_as_seen(view, self.method, self.container, marks)
+    }
+
+    fn size_mm(&self, view: &View, marks: &ObjectMarks, wanted: Quantity) -> Option<f64> {
+        let (_, size) = self.sizes(view, marks).into_iter().find(|(quantity, _)| *quantity == wanted)?;
+        Some(size.ok()?.predicted_mm)
+    }
+
+    fn sigma(&self, quantity: Quantity, inputs: &InputSigma) -> Option<SizeSigma> {
+        let (pose, camera) = (*self.view.pose(), *self.view.camera());
+        let by_pose = |pitch_rad: f64, roll_rad: f64, range_mm: f64| {
+            self.half_difference(quantity, |sign| {
+                let moved = Pose::new(
+                    (pose.pitch_rad() + sign * pitch_rad).min(std::f64::consts::FRAC_PI_2),
+                    pose.roll_rad() + sign * roll_rad,
+                    pose.range_mm() + sign * range_mm,
+                );
+                Some(View::new(camera, moved.ok()?))
+            })
+        };
+        let by_camera = |focal: f64, x_px: f64, y_px: f64| {
+            self.half_difference(quantity, |sign| {
+                Some(View::new(moved_camera(&camera, sign * focal, Vector2::new(x_px, y_px) * sign)?, pose))
+            })
+        };
+        let camera_parts = [
+            by_camera(inputs.focal_relative, 0.0, 0.0)?,
+            by_camera(0.0, inputs.principal_px, 0.0)?,
+            by_camera(0.0, 0.0, inputs.principal_px)?,
+        ];
+        Some(SizeSigma {
+            pitch_mm: by_pose(inputs.pitch_rad, 0.0, 0.0)?.abs(),
+            roll_mm: by_pose(0.0, inputs.roll_rad, 0.0)?.abs(),
+            range_mm: by_pose(0.0, 0.0, inputs.range_relative * pose.range_mm())?.abs(),
+            marks_mm: self.marks_sigma_mm(quantity, inputs.mark_px)?,
+            camera_mm: camera_parts.iter().map(|p| p * p).sum::<f64>().sqrt(),
+        })
+    }
+
+    fn half_difference(&self, quantity: Quantity, view: impl Fn(f64) -> Option<View>) -> Option<f64> {
+        let plus = self.size_mm(&view(1.0)?, self.marks, quantity)?;
+        let minus = self.size_mm(&view(-1.0)?, self.marks, quantity)?;
+        Some(0.5 * (plus - minus))
+    }
+
+    fn marks_sigma_mm(&self, quantity: Quantity, mark_px: f64) -> Option<f64> {
+        let mut moved = self.marks.clone();
+        let mut variance = 0.0;
+        for mark in 0..moved.marks.len() {
+            for point in 0..points_px(&mut moved.marks[mark]).len() {
+                for axis in 0..2 {
+                    let mut at = |offset_px: f64| {
+                        let original = points_px(&mut moved.marks[mark])[point];
+                        points_px(&mut moved.marks[mark])[point][axis] += offset_px;
+                        let size_mm = self.size_mm(&self.view, &moved, quantity);
+                        points_px(&mut moved.marks[mark])[point] = original;
+                        size_mm
+                    };
+                    variance += (0.5 * (at(mark_px)? - at(-mark_px)?)).powi(2);
+                }
+            }
+        }
+        Some(variance.sqrt())
+    }
+}
+
+fn points_px(mark: &mut Mark) -> &mut [nalgebra::Point2<f64>] {
+    match mark {
+        Mark::Line { ends_px, .. } => ends_px,
+        Mark::Outline { points_px, .. } => points_px,
+    }
+}
+
+fn moved_camera(camera: &Camera, focal_relative: f64, principal_px: Vector2<f64>) -> Option<Camera> {
+    let [cx, cy] = camera.principal_px();
+    let focal_px = camera.focal_px().map(|f| f * (1.0 + focal_relative));
+    let principal_px = [cx + principal_px.x, cy + principal_px.y];
+    Camera::new(camera.size_px(), focal_px, principal_px, camera.skew_px(), *camera.lens()).ok()
+}

@@ -1,0 +1,249 @@
+//! Marks made by people, as LabelMe files (<https://github.com/wkentaro/labelme>).
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use model::{Feature, Mark, ObjectMarks, Quantity};
+use nalgebra::Point2;
+use serde::Deserialize;
+
+/// Larger than any file of marks (LabelMe may embed the picture itself).
+const LARGEST_FILE_BYTES: u64 = 256 * 1024 * 1024;
+
+/// The labels that are read, for messages.
+const EXPECTED: &str =
+    "OBJECT/diameter, OBJECT/width, OBJECT/length or OBJECT/height as a line, OBJECT/rim or OBJECT/base as a polygon";
+
+/// Why a file gives no marks.
+#[derive(Debug, thiserror::Error)]
+pub enum MarksError {
+    /// It cannot be read.
+    #[error("cannot read the file: {source}: {}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// It is too large for marks.
+    #[error("the file has {bytes} bytes: marks have at most {LARGEST_FILE_BYTES}: {}", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Its size.
+        bytes: u64,
+    },
+    /// It is not LabelMe's JSON.
+    #[error("not a LabelMe file: {source}; open it in LabelMe and save it again: {}", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// Why, with line and column.
+        source: serde_json::Error,
+    },
+    /// The picture that was marked has another size than the camera's.
+    #[error(
+        "marked on a picture of {got_width} x {got_height} px, but the camera's are {width} x {height}: mark the original \
+         pictures, or name the camera of the marked ones ([marks] camera in study.toml): {}", path.display()
+    )]
+    OtherPicture {
+        /// The file.
+        path: PathBuf,
+        /// Width that the file gives.
+        got_width: u32,
+        /// Height that the file gives.
+        got_height: u32,
+        /// Width of the camera's pictures.
+        width: u32,
+        /// Height of the camera's pictures.
+        height: u32,
+    },
+    /// One of its shapes.
+    #[error("shape {number} ('{label}'): {fact}: {}", path.display())]
+    Shape {
+        /// The file.
+        path: PathBuf,
+        /// Number of the shape, from 1.
+        number: usize,
+        /// Its label.
+        label: String,
+        /// What is wrong: expected and got.
+        fact: String,
+    },
+}
+
+impl MarksError {
+    /// Stable code, for the status of a session.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Unreadable { .. } => "marks_unreadable",
+            Self::TooLarge { .. } => "marks_too_large",
+            Self::Malformed { .. } => "marks_malformed",
+            Self::OtherPicture { .. } => "marks_of_other_picture",
+            Self::Shape { .. } => "bad_mark",
+        }
+    }
+}
+
+/// What one file holds.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Marks {
+    /// Marks by object, in the order of their names.
+    pub objects: Vec<ObjectMarks>,
+}
+
+#[derive(Deserialize)]
+struct File {
+    shapes: Vec<Shape>,
+    #[serde(rename = "imageWidth", default)]
+    width_px: Option<u32>,
+    #[serde(rename = "imageHeight", default)]
+    height_px: Option<u32>,
+}
+
+#[derive(Deserialize)]
+struct Shape {
+    label: String,
+    points: Vec<[f64; 2]>,
+    #[serde(default)]
+    shape_type: Option<String>,
+}
+
+/// Reads the bytes of a file of marks, for [`parse`].
+///
+/// # Errors
+/// [`MarksError::Unreadable`] and [`MarksError::TooLarge`].
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, MarksError> {
+    let unreadable = |source| MarksError::Unreadable { path: path.to_owned(), source };
+    let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
+    if bytes > LARGEST_FILE_BYTES {
+        return Err(MarksError::TooLarge { path: path.to_owned(), bytes });
+    }
+    std::fs::read(path).map_err(unreadable)
+}
+
+/// Parses the bytes of a LabelMe file. `path` is for messages; `picture_px`: width and height of the pictures that were
+/// marked.
+///
+/// # Errors
+/// [`MarksError`] for the first thing that is wrong: half a set of marks would be measured as if it were whole.
+pub fn parse(bytes: &[u8], path: &Path, picture_px: [u32; 2]) -> Result<Marks, MarksError> {
+    let file: File =
+        serde_json::from_slice(bytes).map_err(|source| MarksError::Malformed { path: path.to_owned(), source })?;
+    let [width, height] = picture_px;
+    let (got_width, got_height) = (file.width_px.unwrap_or(width), file.height_px.unwrap_or(height));
+    if [got_width, got_height] != picture_px {
+        return Err(MarksError::OtherPicture { path: path.to_owned(), got_width, got_height, width, height });
+    }
+    let mut objects: BTreeMap<String, Vec<Mark>> = BTreeMap::new();
+    for (number, shape) in (1..).zip(&file.shapes) {
+        let (object, mark) = mark(shape).map_err(|fact| MarksError::Shape {
+            path: path.to_owned(),
+            number,
+            label: shape.label.clone(),
+            fact,
+        })?;
+        objects.entry(object).or_default().push(mark);
+    }
+    Ok(Marks { objects: objects.into_iter().map(|(object, marks)| ObjectMarks { object, marks }).collect() })
+}
+
+fn mark(shape: &Shape) -> Result<(String, Mark), String> {
+    let Some((object, what)) = shape.label.rsplit_once('/').filter(|(object, _)| !object.is_empty()) else {
+        return Err(format!("expected a label like {EXPECTED}"));
+    };
+    if !shape.points.iter().flatten().all(|c| c.is_finite()) {
+        return Err("its coordinates are not all finite numbers".to_owned());
+    }
+    let points_px: Vec<Point2<f64>> = shape.points.iter().map(|[x, y]| Point2::new(*x, *y)).collect();
+    let shape_type = shape.shape_type.as_deref().unwrap_or("polygon");
+    let mark = if let Ok(quantity) = what.parse::<Quantity>() {
+        let (true, &[a, b]) = (matches!(shape_type, "line" | "linestrip"), points_px.as_slice()) else {
+            return Err(format!("expected a line with 2 points, got a {shape_type} with {}", points_px.len()));
+        };
+        Mark::Line { quantity, ends_px: [a, b] }
+    } else if let Ok(feature) = what.parse::<Feature>() {
+        if !matches!(shape_type, "polygon" | "linestrip" | "points") {
+            return Err(format!("expected a polygon, linestrip or points along the {feature}, got a {shape_type}"));
+        }
+        Mark::Outline { feature, points_px }
+    } else {
+        return Err(format!("'{what}' is nothing that can be marked; expected {EXPECTED}"));
+    };
+    Ok((object.to_owned(), mark))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+    use proptest::prelude::*;
+
+    fn parse_shapes(shapes: &str) -> Result<Marks, MarksError> {
+        let text = format!(r#"{{"version": "5.4.1", "shapes": [{shapes}], "imageWidth": 640, "imageHeight": 480}}"#);
+        parse(text.as_bytes(), Path::new("m.json"), [640, 480])
+    }
+
+    #[test]
+    fn lines_and_outlines_are_read_by_object() {
+        let marks = parse_shapes(
+            r#"{"label": "red bowl/height", "points": [[1, 2], [3, 4]], "shape_type": "line"},
+               {"label": "plate/rim", "points": [[1, 2], [3, 4], [5, 6.5]], "shape_type": "polygon", "flags": {}},
+               {"label": "red bowl/diameter", "points": [[1, 2], [3, 4]], "shape_type": "line", "group_id": null}"#,
+        )
+        .unwrap();
+        let names: Vec<_> = marks.objects.iter().map(|o| (o.object.as_str(), o.marks.len())).collect();
+        assert_eq!(names, [("plate", 1), ("red bowl", 2)]);
+        let Mark::Outline { feature: Feature::Rim, points_px } = &marks.objects[0].marks[0] else { panic!("a rim") };
+        assert_eq!(points_px[2], Point2::new(5.0, 6.5));
+    }
+
+    #[test]
+    fn the_label_is_cut_at_its_last_slash() {
+        let marks =
+            parse_shapes(r#"{"label": "a/b/width", "points": [[1, 2], [3, 4]], "shape_type": "line"}"#).unwrap();
+        assert_eq!(marks.objects[0].object, "a/b");
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        for (shape, expected) in [
+            (r#"{"label": "plate", "points": [], "shape_type": "line"}"#, "expected a label like OBJECT/diameter"),
+            (
+                r#"{"label": "plate/girth", "points": [], "shape_type": "line"}"#,
+                "'girth' is nothing that can be marked",
+            ),
+            (r#"{"label": "/width", "points": [], "shape_type": "line"}"#, "expected a label like"),
+            (r#"{"label": "p/width", "points": [[1,2]], "shape_type": "line"}"#, "got a line with 1"),
+            (r#"{"label": "p/width", "points": [[1,2],[3,4]], "shape_type": "rectangle"}"#, "got a rectangle with 2"),
+            (r#"{"label": "p/rim", "points": [[1,2],[3,4]], "shape_type": "circle"}"#, "got a circle"),
+        ] {
+            let error = parse_shapes(shape).unwrap_err().to_string();
+            assert!(error.contains(expected) && error.contains("shape 1") && error.contains("m.json"), "{error}");
+        }
+        assert!(parse_shapes(r#"{"label": 7}"#).unwrap_err().to_string().contains("line 1 column"));
+    }
+
+    #[test]
+    fn marks_of_another_picture_are_refused() {
+        let text = br#"{"shapes": [], "imageWidth": 640, "imageHeight": 480}"#;
+        let error = parse(text, Path::new("m.json"), [2592, 1944]).unwrap_err();
+        assert_eq!(error.code(), "marks_of_other_picture");
+        assert!(error.to_string().contains("640 x 480") && error.to_string().contains("2592 x 1944"));
+        assert!(parse(br#"{"shapes": []}"#, Path::new("m.json"), [2592, 1944]).is_ok(), "the size may be left out");
+    }
+
+    proptest! {
+        #[test]
+        fn no_bytes_make_it_panic(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
+            let _ = parse(&bytes, Path::new("m.json"), [640, 480]);
+        }
+
+        #[test]
+        fn no_json_makes_it_panic(label in ".{0,20}", x in any::<f64>(), kind in "(line|polygon|circle|x)") {
+            let text = serde_json::json!({"shapes": [{"label": label, "points": [[x, 1.0], [2.0, x]], "shape_type": kind}]});
+            let _ = parse(text.to_string().as_bytes(), Path::new("m.json"), [640, 480]);
+        }
+    }
+}

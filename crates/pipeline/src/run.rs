@@ -1,0 +1,143 @@
+//! All sessions of a study, in parallel, into a sink.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+
+use model::{Problem, ResultSink, RunMetadata, SessionStatus, Stage};
+use rayon::prelude::*;
+
+use crate::inputs::sha256_of_file;
+use crate::reporter::Reporter;
+use crate::session::{SessionOptions, SessionOutput, run_session};
+use crate::study::{SessionDir, Study};
+
+/// Settings of a run that are not the study's.
+#[derive(Debug, Clone)]
+pub struct RunOptions {
+    /// Worker threads; none for one per core that this process may use.
+    pub jobs: Option<NonZeroUsize>,
+    /// Folder for what may be made anew: MCAP files.
+    pub work_dir: PathBuf,
+    /// Whether to ingest cards again that have not changed.
+    pub force: bool,
+    /// Program and version, for provenance.
+    pub program: String,
+}
+
+/// Why a run stopped. What concerns one session never stops a run.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError<E: std::error::Error + 'static> {
+    /// The work folder.
+    #[error("cannot make the work folder: {source}: {}", path.display())]
+    WorkDir {
+        /// The folder.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The worker threads.
+    #[error("cannot start the worker threads: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+    /// An input file of the study that was there a moment ago.
+    #[error("cannot read an input file: {source}: {}", path.display())]
+    Input {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The settings do not go into JSON.
+    #[error("cannot record the settings: {0}")]
+    Settings(#[from] serde_json::Error),
+    /// The results could not be stored.
+    #[error("cannot store the results: {0}")]
+    Sink(#[source] E),
+}
+
+/// Runs every session of a study, `jobs` at a time, and hands the rows to `sink` in the order of the sessions' names.
+///
+/// # Errors
+/// [`RunError`] for what concerns the run as a whole. A session that fails is in the statuses returned.
+pub fn run<S: ResultSink>(
+    study: &Study,
+    options: &RunOptions,
+    reporter: &dyn Reporter,
+    sink: &mut S,
+) -> Result<Vec<SessionStatus>, RunError<S::Error>> {
+    let mcap_dir = options.work_dir.join("mcap");
+    std::fs::create_dir_all(&mcap_dir).map_err(|source| RunError::WorkDir { path: mcap_dir.clone(), source })?;
+    let session_options = SessionOptions { mcap_dir, force: options.force, program: options.program.clone() };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.jobs.map_or(0, NonZeroUsize::get)).build()?;
+    reporter.begin(study.sessions.len());
+    let outputs: Vec<SessionOutput> = pool.install(|| {
+        let one = |dir| guarded(study, dir, &session_options, reporter);
+        study.sessions.par_iter().map(one).collect()
+    });
+    let mut inputs_sha256 = study_inputs(study)?;
+    let mut sessions = Vec::new();
+    for output in outputs {
+        sink.session(output.results, output.frames).map_err(RunError::Sink)?;
+        inputs_sha256.extend(output.inputs_sha256);
+        sessions.push(output.status);
+    }
+    let metadata = RunMetadata {
+        program: options.program.clone(),
+        study: study.spec.name.clone(),
+        statement: study.spec.statement.clone(),
+        settings: settings(study)?,
+        tables: study.tables.clone(),
+        sessions: sessions.clone(),
+        inputs_sha256,
+    };
+    sink.finish(&metadata).map_err(RunError::Sink)?;
+    Ok(sessions)
+}
+
+/// Runs a session; a panic becomes its status, and the other sessions go on.
+fn guarded(study: &Study, dir: &SessionDir, options: &SessionOptions, reporter: &dyn Reporter) -> SessionOutput {
+    let output =
+        catch_unwind(AssertUnwindSafe(|| run_session(study, dir, options, reporter))).unwrap_or_else(|panic| {
+            let said =
+                panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
+            let problem = Problem {
+                stage: Stage::Measure,
+                code: "internal_error".to_owned(),
+                place: dir.name.clone(),
+                fact: format!("the program failed on this session: {}", said.unwrap_or("no message")),
+                remedy: "report it with this message; the other sessions are not affected".to_owned(),
+            };
+            let status = SessionStatus {
+                session: dir.name.clone(),
+                failed: true,
+                problems: vec![problem],
+                ..SessionStatus::default()
+            };
+            SessionOutput { status, ..SessionOutput::default() }
+        });
+    reporter.done(&output.status);
+    output
+}
+
+fn settings(study: &Study) -> Result<serde_json::Value, serde_json::Error> {
+    Ok(serde_json::json!({
+        "study": study.spec,
+        "camera": study.camera_spec,
+        "device_profile": study.profile,
+    }))
+}
+
+/// Hashes of the files that concern the whole study.
+fn study_inputs<E: std::error::Error>(study: &Study) -> Result<BTreeMap<String, String>, RunError<E>> {
+    let mut files = vec!["study.toml".to_owned(), "objects.csv".to_owned()];
+    for printed in study.spec.tables.iter().filter_map(|table| table.printed.as_ref()) {
+        files.push(printed.rows.clone());
+        files.extend(printed.summaries.clone());
+    }
+    let hash = |file: String| {
+        let path = study.dir.join(&file);
+        sha256_of_file(&path).map(|sha| (file, sha)).map_err(|source| RunError::Input { path, source })
+    };
+    files.into_iter().map(hash).collect()
+}

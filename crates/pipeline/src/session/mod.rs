@@ -1,0 +1,221 @@
+//! The road of one session: card -> MCAP -> signals -> marks -> sizes -> rows.
+
+mod fuse;
+mod marks;
+mod rows;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use ingest::{DroppedImage, ImageEntry, IngestProgress, SessionMetadata, SessionReader, SessionSource};
+use model::{Camera, FrameRow, Problem, ResultRow, SessionStatus, Stage};
+
+use crate::inputs::sha256_of_file;
+use crate::reporter::Reporter;
+use crate::signals::{self, FrameSignals, SignalSettings};
+use crate::study::{SessionDir, SessionSpec, Study};
+use marks::SessionMarks;
+
+/// What one session gives.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SessionOutput {
+    /// How it fared.
+    pub status: SessionStatus,
+    /// Sizes.
+    pub results: Vec<ResultRow>,
+    /// Every image.
+    pub frames: Vec<FrameRow>,
+    /// SHA-256 of what was read, by path relative to the study.
+    pub inputs_sha256: BTreeMap<String, String>,
+}
+
+/// Settings of a run that are not the study's.
+#[derive(Debug, Clone)]
+pub struct SessionOptions {
+    /// Folder for MCAP files.
+    pub mcap_dir: PathBuf,
+    /// Whether to ingest cards again that have not changed.
+    pub force: bool,
+    /// Program and version, for provenance.
+    pub program: String,
+}
+
+/// An image with its signals, as the later steps see it.
+struct Frame {
+    image: ImageEntry,
+    signals: FrameSignals,
+}
+
+/// All of a session that is known once its card and session.toml are read.
+struct Session<'a> {
+    study: &'a Study,
+    dir: &'a SessionDir,
+    spec: SessionSpec,
+    camera: Camera,
+    frames: Vec<Frame>,
+    dropped: Vec<DroppedImage>,
+}
+
+/// Runs one session. Whatever goes wrong is in the status; what could be used is in the rows.
+pub fn run_session(
+    study: &Study,
+    dir: &SessionDir,
+    options: &SessionOptions,
+    reporter: &dyn Reporter,
+) -> SessionOutput {
+    let mut output = SessionOutput::default();
+    output.status.session.clone_from(&dir.name);
+    if let Err(problem) = fill(study, dir, options, reporter, &mut output) {
+        output.status.failed = true;
+        output.status.problems.push(problem);
+    }
+    for problem in &output.status.problems {
+        tracing::warn!(session = dir.name, stage = %problem.stage, code = problem.code, place = problem.place, "{}", problem.fact);
+    }
+    output
+}
+
+fn fill(
+    study: &Study,
+    dir: &SessionDir,
+    options: &SessionOptions,
+    reporter: &dyn Reporter,
+    output: &mut SessionOutput,
+) -> Result<(), Problem> {
+    let card = dir.card.as_deref().ok_or_else(|| missing_card(dir))?;
+    let spec = session_spec(study, card, output)?;
+    let (camera_spec, camera) = study.camera_of_session(&spec).map_err(|error| Problem {
+        stage: Stage::Study,
+        code: "bad_camera".to_owned(),
+        place: format!("cards/{}/session.toml", dir.name),
+        fact: error.to_string(),
+        remedy: "name a built-in camera or one in devices/".to_owned(),
+    })?;
+    let source = SessionSource {
+        session: dir.name.clone(),
+        card_dir: card.to_owned(),
+        profile: study.profile.clone(),
+        camera_spec,
+        time_zone: study.time_zone.clone(),
+        program: options.program.clone(),
+    };
+    reporter.stage(&dir.name, Stage::Ingest);
+    let mcap = ingest_card(&source, options, reporter)?;
+    reporter.stage(&dir.name, Stage::Signals);
+    let (metadata, frames) = read_frames(study, &mcap, &dir.name)?;
+    output.status.problems.extend(metadata.problems.iter().cloned());
+    output.status.problems.extend(metadata.dropped_images.iter().map(dropped_problem));
+    let on_card = metadata.inputs_sha256.iter().map(|(file, sha)| (format!("cards/{}/{file}", dir.name), sha.clone()));
+    output.inputs_sha256.extend(on_card);
+    let session = Session { study, dir, spec, camera, frames, dropped: metadata.dropped_images };
+    reporter.stage(&dir.name, Stage::Marks);
+    let marks = SessionMarks::read(&session, output);
+    reporter.stage(&dir.name, Stage::Measure);
+    output.results = rows::measure_all(&session, &marks, &mut output.status.problems);
+    output.results.extend(fuse::fuse(&output.results));
+    output.frames = rows::ledger(&session, &marks, &output.results);
+    output.status.images = output.frames.len();
+    output.status.with_pose = session.frames.iter().filter(|f| f.signals.pose.is_some()).count();
+    output.status.selected = output.frames.iter().filter(|f| f.reason == model::FrameReason::Selected).count();
+    output.status.sizes = output.results.iter().filter(|row| row.predicted_mm.is_some()).count();
+    Ok(())
+}
+
+fn missing_card(dir: &SessionDir) -> Problem {
+    let raters: Vec<_> = dir.marks.keys().map(String::as_str).collect();
+    Problem {
+        stage: Stage::Ingest,
+        code: "missing_card".to_owned(),
+        place: format!("cards/{}", dir.name),
+        fact: format!("there are marks by {}, but no card", raters.join(", ")),
+        remedy: "copy the SD card there, or remove the marks of this session".to_owned(),
+    }
+}
+
+fn session_spec(study: &Study, card: &Path, output: &mut SessionOutput) -> Result<SessionSpec, Problem> {
+    let path = card.join("session.toml");
+    if !path.is_file() {
+        return Ok(SessionSpec::default());
+    }
+    let refuse = |fact: String| Problem {
+        stage: Stage::Study,
+        code: "bad_session_toml".to_owned(),
+        place: relative(study, &path),
+        fact,
+        remedy: "correct the file (docs/study.md)".to_owned(),
+    };
+    output.inputs_sha256.insert(relative(study, &path), sha256_of_file(&path).map_err(|e| refuse(e.to_string()))?);
+    ingest::config::read_toml(&path).map_err(|error| refuse(error.to_string()))
+}
+
+fn ingest_card(source: &SessionSource, options: &SessionOptions, reporter: &dyn Reporter) -> Result<PathBuf, Problem> {
+    let mcap = options.mcap_dir.join(format!("{}.mcap", source.session));
+    let progress = Progress { session: &source.session, reporter };
+    let outcome = if options.force {
+        ingest::ingest_session(source, &mcap, &progress).map(|_| ())
+    } else {
+        ingest::ingest_if_changed(source, &mcap, &progress).map(|_| ())
+    };
+    outcome.map(|()| mcap).map_err(|error| Problem {
+        stage: Stage::Ingest,
+        code: error.code().to_owned(),
+        place: format!("cards/{}", source.session),
+        fact: error.to_string(),
+        remedy: error.remedy().to_owned(),
+    })
+}
+
+struct Progress<'a> {
+    session: &'a str,
+    reporter: &'a dyn Reporter,
+}
+
+impl IngestProgress for Progress<'_> {
+    fn begin(&self, bytes: u64) {
+        self.reporter.bytes_to_read(self.session, bytes);
+    }
+
+    fn advance(&self, bytes: u64) {
+        self.reporter.bytes_read(self.session, bytes);
+    }
+}
+
+fn read_frames(study: &Study, mcap: &Path, name: &str) -> Result<(SessionMetadata, Vec<Frame>), Problem> {
+    let refuse = |error: ingest::ReadError| Problem {
+        stage: Stage::Signals,
+        code: "bad_mcap".to_owned(),
+        place: name.to_owned(),
+        fact: error.to_string(),
+        remedy: "run again with --force to ingest the card anew".to_owned(),
+    };
+    let mut reader = SessionReader::open(mcap).map_err(refuse)?;
+    let metadata = reader.metadata().clone();
+    let images = reader.images().map_err(refuse)?;
+    let times: Vec<_> = images.iter().map(|image| image.time).collect();
+    let settings = SignalSettings {
+        signals: study.spec.signals.clone(),
+        select: study.spec.select.clone(),
+        mount_pitch_rad: study.spec.mount.pitch_offset_deg.unwrap_or(metadata.mount_pitch_deg).to_radians(),
+    };
+    let signals = signals::at_images(&mut reader, &times, &settings).map_err(refuse)?;
+    Ok((metadata, images.into_iter().zip(signals).map(|(image, signals)| Frame { image, signals }).collect()))
+}
+
+fn dropped_problem(image: &DroppedImage) -> Problem {
+    Problem {
+        stage: Stage::Ingest,
+        code: image.reason.code().to_owned(),
+        place: image.file.clone(),
+        fact: if image.detail.is_empty() { image.reason.meaning().to_owned() } else { image.detail.clone() },
+        remedy: match image.reason {
+            model::FrameReason::WrongSize => "name the right camera for this session, or remove the picture",
+            model::FrameReason::NoTime => "correct the file name, or the profile's [images] time",
+            _ => "copy the file from the SD card again; if it is damaged there too, it is lost",
+        }
+        .to_owned(),
+    }
+}
+
+fn relative(study: &Study, path: &Path) -> String {
+    path.strip_prefix(&study.dir).unwrap_or(path).to_string_lossy().replace('\\', "/")
+}

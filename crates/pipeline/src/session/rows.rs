@@ -1,0 +1,208 @@
+//! Rows of the results (level frame) and of the ledger.
+
+use std::collections::BTreeSet;
+
+use model::results::RESULTS_SCHEMA_VERSION;
+use model::{
+    Estimate, FrameReason, FrameRow, Level, MeasureError, Method, ObjectMarks, Pose, Problem, Quantity, ResultRow,
+    Stage, View, estimate,
+};
+
+use super::marks::SessionMarks;
+use super::{Frame, Session};
+use crate::study::Object;
+
+/// One object as one rater marked it on one frame.
+struct Marked<'a> {
+    session: &'a Session<'a>,
+    frame: &'a Frame,
+    pose: Pose,
+    rater: &'a str,
+    object: &'a Object,
+    marks: &'a ObjectMarks,
+}
+
+/// Sizes of everything that is marked on frames with a pose: by time, rater, object, method, quantity.
+pub(super) fn measure_all(session: &Session<'_>, marks: &SessionMarks, problems: &mut Vec<Problem>) -> Vec<ResultRow> {
+    let mut rows = Vec::new();
+    for frame in &session.frames {
+        for (rater, objects) in marks.of_image(&frame.image.file) {
+            let Some(pose) = frame.signals.pose else {
+                problems.push(unusable(frame, rater));
+                continue;
+            };
+            for marks in objects {
+                // Marks of unknown objects were refused when they were read.
+                let Some(object) = session.study.objects.get(&marks.object) else { continue };
+                rows.extend(measure_one(&Marked { session, frame, pose, rater, object, marks }, problems));
+            }
+        }
+    }
+    rows
+}
+
+fn unusable(frame: &Frame, rater: &str) -> Problem {
+    Problem {
+        stage: Stage::Signals,
+        code: "marked_image_without_pose".to_owned(),
+        place: frame.image.file.clone(),
+        fact: format!("marked by {rater}, but {}", frame.signals.reason.meaning()),
+        remedy: "mark another image of the same object, or see frames.parquet for the numbers behind it".to_owned(),
+    }
+}
+
+fn measure_one(marked: &Marked<'_>, problems: &mut Vec<Problem>) -> Vec<ResultRow> {
+    let study = marked.session.study;
+    let camera = study.marks_camera.unwrap_or(marked.session.camera);
+    let view = View::new(camera, marked.pose);
+    let inputs = study.spec.uncertainty.inputs();
+    let mut rows = Vec::new();
+    let mut told = BTreeSet::new();
+    for method in &study.spec.measure.methods {
+        for (quantity, size) in estimate(&view, *method, &marked.object.container, marked.marks, &inputs) {
+            if let Err(error) = &size
+                && told.insert((quantity, error.code()))
+            {
+                problems.push(unmeasured(marked, quantity, error));
+            }
+            rows.push(row(marked, *method, quantity, &size));
+        }
+    }
+    if rows.is_empty() {
+        problems.push(nothing(marked));
+    }
+    rows
+}
+
+fn unmeasured(marked: &Marked<'_>, quantity: Quantity, error: &MeasureError) -> Problem {
+    Problem {
+        stage: Stage::Measure,
+        code: error.code().to_owned(),
+        place: marked.frame.image.file.clone(),
+        fact: format!("{quantity} of '{}' marked by {}: {error}", marked.marks.object, marked.rater),
+        remedy: "correct the marks in LabelMe and run again".to_owned(),
+    }
+}
+
+fn nothing(marked: &Marked<'_>) -> Problem {
+    let shape = marked.object.container.shape;
+    Problem {
+        stage: Stage::Measure,
+        code: "nothing_to_measure".to_owned(),
+        place: marked.frame.image.file.clone(),
+        fact: format!("the marks of '{}' by {} give no size of a {shape}", marked.marks.object, marked.rater),
+        remedy: "mark a diameter, width, length, height or the rim (docs/study.md)".to_owned(),
+    }
+}
+
+fn row(marked: &Marked<'_>, method: Method, quantity: Quantity, size: &Result<Estimate, MeasureError>) -> ResultRow {
+    let Marked { session, frame, pose, rater, object, marks } = marked;
+    let measured = size.as_ref().ok().map(|e| e.measured);
+    let sigma = size.as_ref().ok().and_then(|e| e.sigma);
+    let truth_mm = object.truth_mm.get(&quantity).copied();
+    let predicted_mm = measured.map(|m| m.predicted_mm);
+    let selected = frame.signals.reason == FrameReason::Selected;
+    let mut flags: Vec<&str> = Vec::new();
+    flags.extend((!selected).then(|| frame.signals.reason.code()));
+    flags.extend(size.as_ref().err().map(MeasureError::code));
+    ResultRow {
+        schema_version: RESULTS_SCHEMA_VERSION,
+        study: session.study.spec.name.clone(),
+        session: session.dir.name.clone(),
+        participant: session.spec.participant.clone(),
+        object: marks.object.clone(),
+        kind: object.container.kind,
+        shape: object.container.shape,
+        setup_height_mm: session.spec.setup_height_mm,
+        setup_pitch_deg: session.spec.setup_pitch_deg,
+        rater: (*rater).to_owned(),
+        image: Some(frame.image.file.clone()),
+        time_utc: Some(frame.image.time),
+        pitch_deg: Some(pose.pitch_rad().to_degrees()),
+        roll_deg: Some(pose.roll_rad().to_degrees()),
+        range_mm: Some(pose.range_mm()),
+        quantity,
+        method,
+        level: Level::Frame,
+        predicted_mm,
+        sigma_mm: sigma.map(|s| s.total_mm()),
+        sigma_pitch_mm: sigma.map(|s| s.pitch_mm),
+        sigma_roll_mm: sigma.map(|s| s.roll_mm),
+        sigma_range_mm: sigma.map(|s| s.range_mm),
+        sigma_marks_mm: sigma.map(|s| s.marks_mm),
+        sigma_camera_mm: sigma.map(|s| s.camera_mm),
+        plane_z_mm: measured.map(|m| m.plane_z_mm),
+        truth_mm,
+        error_pct: error_pct(predicted_mm, truth_mm),
+        selected,
+        frames: 1,
+        spread_mm: None,
+        flags: flags.join(","),
+    }
+}
+
+/// Signed error in per cent of the truth.
+pub(super) fn error_pct(predicted_mm: Option<f64>, truth_mm: Option<f64>) -> Option<f64> {
+    Some(100.0 * (predicted_mm? - truth_mm?) / truth_mm?)
+}
+
+/// One row for every image of the session: those with data by time, then the dropped ones by file.
+pub(super) fn ledger(session: &Session<'_>, marks: &SessionMarks, results: &[ResultRow]) -> Vec<FrameRow> {
+    let sizes_on = |file: &str| {
+        let on_it = |row: &&ResultRow| row.image.as_deref() == Some(file) && row.predicted_mm.is_some();
+        count(results.iter().filter(on_it).count())
+    };
+    let with_data = session.frames.iter().map(|frame| FrameRow {
+        time_utc: Some(frame.image.time),
+        reason: frame.signals.reason,
+        bytes: u32::try_from(frame.image.bytes).unwrap_or(u32::MAX),
+        width_px: Some(frame.image.width_px),
+        height_px: Some(frame.image.height_px),
+        gravity_mg: frame.signals.gravity_mg,
+        stillness_mg: frame.signals.stillness_mg,
+        pitch_deg: frame.signals.pitch_roll_rad.map(|(pitch, _)| pitch.to_degrees()),
+        roll_deg: frame.signals.pitch_roll_rad.map(|(_, roll)| roll.to_degrees()),
+        range_mm: frame.signals.range_mm,
+        range_spread_mm: frame.signals.range_spread_mm,
+        range_samples: frame.signals.range_samples,
+        raters: count(marks.of_image(&frame.image.file).count()),
+        sizes: sizes_on(&frame.image.file),
+        ..empty_row(session, &frame.image.file, frame.signals.reason)
+    });
+    let dropped = session.dropped.iter().map(|image| FrameRow {
+        time_utc: image.time,
+        bytes: u32::try_from(image.bytes).unwrap_or(u32::MAX),
+        width_px: image.width_px,
+        height_px: image.height_px,
+        ..empty_row(session, &image.file, image.reason)
+    });
+    with_data.chain(dropped).collect()
+}
+
+fn empty_row(session: &Session<'_>, file: &str, reason: FrameReason) -> FrameRow {
+    FrameRow {
+        schema_version: RESULTS_SCHEMA_VERSION,
+        study: session.study.spec.name.clone(),
+        session: session.dir.name.clone(),
+        participant: session.spec.participant.clone(),
+        image: file.to_owned(),
+        time_utc: None,
+        reason,
+        bytes: 0,
+        width_px: None,
+        height_px: None,
+        gravity_mg: None,
+        stillness_mg: None,
+        pitch_deg: None,
+        roll_deg: None,
+        range_mm: None,
+        range_spread_mm: None,
+        range_samples: 0,
+        raters: 0,
+        sizes: 0,
+    }
+}
+
+fn count(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
+}

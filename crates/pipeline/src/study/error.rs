@@ -1,0 +1,162 @@
+//! What is wrong with a study as a whole.
+
+use std::path::PathBuf;
+
+use super::spec::{STUDY_SCHEMA_VERSION, StudySpec};
+
+/// Why a study cannot be run.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// No such folder.
+    #[error("no folder here: expected a study with study.toml, objects.csv and cards/ (docs/study.md): {}", .0.display())]
+    NoFolder(PathBuf),
+    /// A TOML file.
+    #[error(transparent)]
+    Config(#[from] ingest::ConfigError),
+    /// A version of another program.
+    #[error("study.toml: schema_version = {0}: this program reads version {STUDY_SCHEMA_VERSION}")]
+    Version(u32),
+    /// A number outside its range.
+    #[error("study.toml: {key} = {got}: expected {expected}")]
+    Setting {
+        /// The key, with its section.
+        key: &'static str,
+        /// What stands there.
+        got: f64,
+        /// What may stand there.
+        expected: &'static str,
+    },
+    /// A name that cannot name a file, or nothing where something must be.
+    #[error("study.toml: {key} = '{got}': expected {expected}")]
+    Name {
+        /// The key, with its section.
+        key: &'static str,
+        /// What stands there.
+        got: String,
+        /// What may stand there.
+        expected: &'static str,
+    },
+    /// Time zone.
+    #[error("study.toml: time_zone = '{name}': expected an IANA name such as America/Chicago: {source}")]
+    TimeZone {
+        /// What stands there.
+        name: String,
+        /// Why it is refused.
+        source: jiff::Error,
+    },
+    /// Camera.
+    #[error("camera '{name}': {source}")]
+    Camera {
+        /// Its name.
+        name: String,
+        /// Why it is refused.
+        source: model::CameraSpecError,
+    },
+    /// A CSV file that cannot be read.
+    #[error("{source}: {}", path.display())]
+    Csv {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: csv::Error,
+    },
+    /// A line of a CSV file.
+    #[error("line {line}: {fact}: {}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// What is wrong: expected and got.
+        fact: String,
+    },
+    /// A table names an object that is not in objects.csv.
+    #[error("study.toml: table '{table}' names the object '{object}', which is not in objects.csv")]
+    TableObject {
+        /// Table.
+        table: String,
+        /// Object.
+        object: String,
+    },
+    /// The folder of the cards or the marks cannot be listed.
+    #[error("cannot list the folder: {source}: {}", path.display())]
+    List {
+        /// The folder.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// No session at all.
+    #[error("no session: expected one folder per SD card in {}", .0.display())]
+    NoSessions(PathBuf),
+}
+
+impl StudySpec {
+    /// Checks every number of study.toml.
+    pub(super) fn check(&self) -> Result<(), StudyError> {
+        if self.schema_version != STUDY_SCHEMA_VERSION {
+            return Err(StudyError::Version(self.schema_version));
+        }
+        let positive = "a positive number";
+        let not_negative = "zero or a positive number";
+        let (signals, select, sigma) = (&self.signals, &self.select, &self.uncertainty);
+        for (key, got, least, expected) in [
+            ("signals.gravity_cutoff_hz", signals.gravity_cutoff_hz, f64::MIN_POSITIVE, positive),
+            ("signals.gravity_tolerance_mg", signals.gravity_tolerance_mg, f64::MIN_POSITIVE, positive),
+            ("signals.stillness_max_mg", signals.stillness_max_mg, f64::MIN_POSITIVE, positive),
+            ("signals.range_window_s", signals.range_window_s, f64::MIN_POSITIVE, positive),
+            ("signals.range_min_mm", signals.range_min_mm, 0.0, not_negative),
+            ("select.pitch_tolerance_deg", select.pitch_tolerance_deg, 0.0, not_negative),
+            ("uncertainty.pitch_deg", sigma.pitch_deg, 0.0, not_negative),
+            ("uncertainty.roll_deg", sigma.roll_deg, 0.0, not_negative),
+            ("uncertainty.range_pct", sigma.range_pct, 0.0, not_negative),
+            ("uncertainty.mark_px", sigma.mark_px, 0.0, not_negative),
+            ("uncertainty.focal_pct", sigma.focal_pct, 0.0, not_negative),
+            ("uncertainty.principal_px", sigma.principal_px, 0.0, not_negative),
+        ] {
+            in_range(key, got, least, f64::MAX, expected)?;
+        }
+        in_range(
+            "signals.range_max_mm",
+            signals.range_max_mm,
+            signals.range_min_mm,
+            f64::MAX,
+            "at least range_min_mm",
+        )?;
+        in_range("signals.gravity_cutoff_hz", signals.gravity_cutoff_hz, 0.01, 20.0, "0.01 to 20 Hz")?;
+        in_range("signals.range_window_s", signals.range_window_s, 0.01, 60.0, "0.01 to 60 s")?;
+        in_range("select.target_pitch_deg", select.target_pitch_deg, 0.0, 90.0, "0 to 90 degrees")?;
+        if let Some(offset) = self.mount.pitch_offset_deg {
+            in_range("mount.pitch_offset_deg", offset, -90.0, 90.0, "-90 to 90 degrees")?;
+        }
+        self.check_names()
+    }
+
+    fn check_names(&self) -> Result<(), StudyError> {
+        let refuse = |key, got: &str, expected| Err(StudyError::Name { key, got: got.to_owned(), expected });
+        if self.name.trim().is_empty() {
+            return refuse("name", &self.name, "a name");
+        }
+        if self.measure.methods.is_empty() {
+            return refuse("measure.methods", "[]", "at least one of paper, ray");
+        }
+        for (i, table) in self.tables.iter().enumerate() {
+            let is_file_name =
+                !table.id.is_empty() && table.id.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+            if !is_file_name {
+                return refuse("tables.id", &table.id, "letters, digits, '-' and '_' (it becomes a file name)");
+            }
+            if self.tables[..i].iter().any(|other| other.id == table.id) {
+                return refuse("tables.id", &table.id, "an id of its own for each table");
+            }
+            if table.quantities.is_empty() {
+                return refuse("tables.quantities", "[]", "at least one quantity");
+            }
+        }
+        Ok(())
+    }
+}
+
+fn in_range(key: &'static str, got: f64, least: f64, most: f64, expected: &'static str) -> Result<(), StudyError> {
+    if got >= least && got <= most { Ok(()) } else { Err(StudyError::Setting { key, got, expected }) }
+}

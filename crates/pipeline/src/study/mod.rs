@@ -1,0 +1,107 @@
+//! A study on disk (docs/study.md), read and checked once.
+
+mod csv_file;
+mod error;
+mod objects;
+mod printed;
+mod sessions;
+mod spec;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use ingest::Profile;
+use model::{Camera, CameraSpec, TableSpec};
+
+pub use error::StudyError;
+pub use objects::Object;
+pub use sessions::{SessionDir, SessionSpec};
+pub use spec::{
+    MarksSpec, MeasureSpec, MountSpec, PrintedFiles, SelectSpec, SignalsSpec, StudySpec, TableEntry, UncertaintySpec,
+};
+
+/// A study whose settings have been read and checked.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// Its folder.
+    pub dir: PathBuf,
+    /// Its settings, overrides applied.
+    pub spec: StudySpec,
+    /// Objects by name.
+    pub objects: BTreeMap<String, Object>,
+    /// Device profile.
+    pub profile: Profile,
+    /// The study's camera.
+    pub camera_spec: CameraSpec,
+    /// Camera of the pictures that people marked, where it is another.
+    pub marks_camera: Option<Camera>,
+    /// Tables, with printed numbers.
+    pub tables: Vec<TableSpec>,
+    /// Time zone.
+    pub time_zone: jiff::tz::TimeZone,
+    /// Sessions, by name: those with a card, and those that are only marked.
+    pub sessions: Vec<SessionDir>,
+}
+
+impl Study {
+    /// Reads the study in `dir`. `adjust` may change the settings after they are read (command line, environment).
+    ///
+    /// # Errors
+    /// [`StudyError`] for what concerns the whole study. What concerns one session is found when that session is run.
+    pub fn load(dir: &Path, adjust: impl FnOnce(&mut StudySpec)) -> Result<Self, StudyError> {
+        if !dir.is_dir() {
+            return Err(StudyError::NoFolder(dir.to_owned()));
+        }
+        let mut spec: StudySpec = ingest::config::read_toml(&dir.join("study.toml"))?;
+        adjust(&mut spec);
+        spec.check()?;
+        let devices = dir.join("devices");
+        let marks_camera = spec.marks.camera.as_deref().map(|name| load_camera(name, &devices)).transpose()?;
+        let time_zone = jiff::tz::TimeZone::get(&spec.time_zone)
+            .map_err(|source| StudyError::TimeZone { name: spec.time_zone.clone(), source })?;
+        let study = Self {
+            objects: objects::read_objects(&dir.join("objects.csv"))?,
+            profile: Profile::load(&spec.device_profile, &devices)?,
+            camera_spec: ingest::camera::load(&spec.camera, &devices)?,
+            marks_camera: marks_camera.map(|(_, camera)| camera),
+            tables: spec.tables.iter().map(|entry| printed::resolve(entry, dir)).collect::<Result<_, _>>()?,
+            time_zone,
+            sessions: sessions::find(dir)?,
+            dir: dir.to_owned(),
+            spec,
+        };
+        camera_of(&study.spec.camera, &study.camera_spec)?;
+        study.check_tables()?;
+        Ok(study)
+    }
+
+    /// The camera of a session: its own, or the study's.
+    ///
+    /// # Errors
+    /// [`StudyError`] when the session names a camera that cannot be read.
+    pub fn camera_of_session(&self, session: &SessionSpec) -> Result<(CameraSpec, Camera), StudyError> {
+        match &session.camera {
+            Some(name) => load_camera(name, &self.dir.join("devices")),
+            None => Ok((self.camera_spec.clone(), camera_of(&self.spec.camera, &self.camera_spec)?)),
+        }
+    }
+
+    fn check_tables(&self) -> Result<(), StudyError> {
+        for table in &self.tables {
+            if let Some(unknown) = table.objects.iter().find(|object| !self.objects.contains_key(*object)) {
+                return Err(StudyError::TableObject { table: table.id.clone(), object: unknown.clone() });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn load_camera(name: &str, devices: &Path) -> Result<(CameraSpec, Camera), StudyError> {
+    let spec = ingest::camera::load(name, devices)?;
+    let camera = camera_of(name, &spec)?;
+    Ok((spec, camera))
+}
+
+fn camera_of(name: &str, spec: &CameraSpec) -> Result<Camera, StudyError> {
+    spec.camera().map_err(|source| StudyError::Camera { name: name.to_owned(), source })
+}

@@ -1,0 +1,72 @@
+//! Which sessions a study has.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::StudyError;
+
+/// session.toml: what is known of one session. Unknown keys are refused.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SessionSpec {
+    /// Who wore the camera.
+    pub participant: Option<String>,
+    /// Nominal height of the camera above the table, on a bench.
+    pub setup_height_mm: Option<f64>,
+    /// Nominal pitch, on a bench.
+    pub setup_pitch_deg: Option<f64>,
+    /// This session's camera, if not the study's.
+    pub camera: Option<String>,
+}
+
+/// Where one session's files are.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SessionDir {
+    /// Name.
+    pub name: String,
+    /// Folder of the card; none when there are only marks.
+    pub card: Option<PathBuf>,
+    /// Folders of marks, by rater.
+    pub marks: BTreeMap<String, PathBuf>,
+}
+
+/// Sessions in the order of their names.
+pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
+    let mut sessions: BTreeMap<String, SessionDir> = BTreeMap::new();
+    let mut session = |name: &str, fill: &dyn Fn(&mut SessionDir)| {
+        let empty = || SessionDir { name: name.to_owned(), card: None, marks: BTreeMap::new() };
+        fill(sessions.entry(name.to_owned()).or_insert_with(empty));
+    };
+    let cards = study_dir.join("cards");
+    for (name, path) in folders(&cards)? {
+        session(&name, &|s| s.card = Some(path.clone()));
+    }
+    let marks = study_dir.join("marks");
+    if marks.is_dir() {
+        for (rater, rater_dir) in folders(&marks)? {
+            for (name, path) in folders(&rater_dir)? {
+                session(&name, &|s| {
+                    s.marks.insert(rater.clone(), path.clone());
+                });
+            }
+        }
+    }
+    if sessions.is_empty() { Err(StudyError::NoSessions(cards)) } else { Ok(sessions.into_values().collect()) }
+}
+
+/// Folders inside `dir`, hidden ones left out. Names that are not UTF-8 are shown with replacement characters.
+fn folders(dir: &Path) -> Result<Vec<(String, PathBuf)>, StudyError> {
+    let refuse = |source| StudyError::List { path: dir.to_owned(), source };
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(dir).map_err(refuse)? {
+        let entry = entry.map_err(refuse)?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if entry.file_type().map_err(refuse)?.is_dir() && !name.starts_with('.') {
+            found.push((name, entry.path()));
+        }
+    }
+    found.sort();
+    Ok(found)
+}

@@ -1,0 +1,211 @@
+//! study.toml as it is written, with the defaults of what may be left out.
+
+use model::{InputSigma, Kind, Method, Note, Quantity, Selection, TableLayout};
+use serde::{Deserialize, Serialize};
+
+/// The version of study.toml that this program reads.
+pub(crate) const STUDY_SCHEMA_VERSION: u32 = 1;
+
+/// study.toml. Unknown keys are refused.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StudySpec {
+    /// Version of this layout: 1.
+    pub schema_version: u32,
+    /// Name of the study.
+    pub name: String,
+    /// A sentence that every report made from this study carries.
+    #[serde(default)]
+    pub statement: Option<String>,
+    /// IANA time zone, for image times that name no zone, and for display.
+    #[serde(default = "utc")]
+    pub time_zone: String,
+    /// Device profile: built in, or devices/NAME.toml.
+    pub device_profile: String,
+    /// Camera: built in, or devices/NAME.toml.
+    pub camera: String,
+    /// About what people marked.
+    #[serde(default)]
+    pub marks: MarksSpec,
+    /// How the camera sits on the device.
+    #[serde(default)]
+    pub mount: MountSpec,
+    /// From samples to pitch, roll, stillness and range.
+    #[serde(default)]
+    pub signals: SignalsSpec,
+    /// Which frames count.
+    #[serde(default)]
+    pub select: SelectSpec,
+    /// From marks to sizes.
+    #[serde(default)]
+    pub measure: MeasureSpec,
+    /// Standard uncertainties of what goes in.
+    #[serde(default)]
+    pub uncertainty: UncertaintySpec,
+    /// Error tables to make.
+    #[serde(default)]
+    pub tables: Vec<TableEntry>,
+}
+
+fn utc() -> String {
+    "UTC".to_owned()
+}
+
+/// `[marks]`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MarksSpec {
+    /// Camera of the pictures that were marked, if those are not the raw ones.
+    pub camera: Option<String>,
+}
+
+/// `[mount]`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MountSpec {
+    /// Camera pitch = sensor pitch + this; the profile's when left out.
+    pub pitch_offset_deg: Option<f64>,
+}
+
+/// `[signals]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SignalsSpec {
+    /// -3 dB frequency of the low-pass that separates gravity from motion.
+    pub gravity_cutoff_hz: f64,
+    /// Largest departure of gravity's length from 1 g.
+    pub gravity_tolerance_mg: f64,
+    /// RMS motion above which an image is not still.
+    pub stillness_max_mg: f64,
+    /// Width of the window around an image's time for the median range.
+    pub range_window_s: f64,
+    /// Shorter readings are nonsense.
+    pub range_min_mm: f64,
+    /// Longer readings are beyond the sensor.
+    pub range_max_mm: f64,
+}
+
+impl Default for SignalsSpec {
+    fn default() -> Self {
+        Self {
+            gravity_cutoff_hz: 0.25,
+            gravity_tolerance_mg: 150.0, // a glasses IMU with |a| = 1.04 g is usable, a wrong scale is not
+            stillness_max_mg: 50.0,
+            range_window_s: 1.0,
+            range_min_mm: 30.0,
+            range_max_mm: 2000.0, // VL53L0X data sheet: up to 2 m
+        }
+    }
+}
+
+/// `[select]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SelectSpec {
+    /// Pitch at which the paper's errors are lowest.
+    pub target_pitch_deg: f64,
+    /// Half width of the window around it.
+    pub pitch_tolerance_deg: f64,
+}
+
+impl Default for SelectSpec {
+    fn default() -> Self {
+        Self { target_pitch_deg: 55.0, pitch_tolerance_deg: 7.5 }
+    }
+}
+
+/// `[measure]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MeasureSpec {
+    /// Methods, side by side on the same marks.
+    pub methods: Vec<Method>,
+}
+
+impl Default for MeasureSpec {
+    fn default() -> Self {
+        Self { methods: Method::ALL.to_vec() }
+    }
+}
+
+/// `[uncertainty]`: standard uncertainties (k = 1).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct UncertaintySpec {
+    /// Pitch: 17 mg of zero-g offset (ADXL362 data sheet: tens of mg) are 1 degree.
+    pub pitch_deg: f64,
+    /// Roll, likewise.
+    pub roll_deg: f64,
+    /// Range, in per cent (VL53L0X data sheet: about 3 % uncalibrated).
+    pub range_pct: f64,
+    /// One coordinate of a mark set by hand.
+    pub mark_px: f64,
+    /// Focal length, in per cent.
+    pub focal_pct: f64,
+    /// Each coordinate of the principal point.
+    pub principal_px: f64,
+}
+
+impl Default for UncertaintySpec {
+    fn default() -> Self {
+        Self { pitch_deg: 1.0, roll_deg: 1.0, range_pct: 3.0, mark_px: 2.0, focal_pct: 0.5, principal_px: 5.0 }
+    }
+}
+
+impl UncertaintySpec {
+    /// In the units of the mathematics.
+    #[must_use]
+    pub fn inputs(&self) -> InputSigma {
+        InputSigma {
+            pitch_rad: self.pitch_deg.to_radians(),
+            roll_rad: self.roll_deg.to_radians(),
+            range_relative: self.range_pct / 100.0,
+            mark_px: self.mark_px,
+            focal_relative: self.focal_pct / 100.0,
+            principal_px: self.principal_px,
+        }
+    }
+}
+
+/// One `[[tables]]` entry; becomes a [`model::TableSpec`] when its printed files are read.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TableEntry {
+    /// Short name, used in file names.
+    pub id: String,
+    /// Caption.
+    pub title: String,
+    /// Layout.
+    pub layout: TableLayout,
+    /// Objects, in the order of the rows.
+    #[serde(default)]
+    pub objects: Vec<String>,
+    /// Kinds of container.
+    #[serde(default)]
+    pub kinds: Vec<Kind>,
+    /// Quantities.
+    pub quantities: Vec<Quantity>,
+    /// Method.
+    pub method: Method,
+    /// Frames.
+    pub selection: Selection,
+    /// What a publication printed.
+    #[serde(default)]
+    pub printed: Option<PrintedFiles>,
+    /// Footnotes.
+    #[serde(default)]
+    pub notes: Vec<Note>,
+}
+
+/// Where printed numbers stand in the study folder.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PrintedFiles {
+    /// The publication.
+    pub source: String,
+    /// CSV of the printed rows.
+    pub rows: String,
+    /// CSV of the printed means and SDs.
+    #[serde(default)]
+    pub summaries: Option<String>,
+}

@@ -1,0 +1,150 @@
+//! Expected tables, as read from their files.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Optional column of expected files: the row's own tolerance.
+const TOLERANCE: &str = "tolerance_pct";
+
+/// A comparison that could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum CompareError {
+    /// The tolerance is not a number from 0 up.
+    #[error("expected a tolerance of 0 per cent or more, got {got}")]
+    Tolerance {
+        /// What was given.
+        got: String,
+    },
+    /// The folder or a file cannot be read.
+    #[error("cannot read the expected tables; check the name and your rights: {}", path.display())]
+    Read {
+        /// Folder or file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// No CSV file in the folder.
+    #[error("no expected tables: expected files like table_II.csv, as 'aim-batch report' writes them, in {}", path.display())]
+    NoFiles {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Not a single number in all files.
+    #[error("nothing to compare: the expected tables hold no numbers, in {}", path.display())]
+    NothingToCompare {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file is not CSV.
+    #[error("not a CSV table with the same number of cells in every row: {}", path.display())]
+    Csv {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it, with the line.
+        source: csv::Error,
+    },
+    /// A cell does not hold a number.
+    #[error("line {line}, column '{column}': expected a number or nothing, got '{got}'; correct it: {}", path.display())]
+    Number {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: u64,
+        /// Column.
+        column: String,
+        /// What it holds.
+        got: String,
+    },
+}
+
+/// The CSV files of a folder, by name.
+pub(super) fn csv_files(dir: &Path) -> Result<Vec<PathBuf>, CompareError> {
+    let unreadable = |source| CompareError::Read { path: dir.to_owned(), source };
+    let entries: Vec<_> = std::fs::read_dir(dir).and_then(Iterator::collect::<Result<_, _>>).map_err(unreadable)?;
+    let mut files: Vec<PathBuf> = entries
+        .iter()
+        .map(std::fs::DirEntry::path)
+        .filter(|path| path.extension().is_some_and(|extension| extension == "csv"))
+        .collect();
+    files.sort();
+    if files.is_empty() { Err(CompareError::NoFiles { path: dir.to_owned() }) } else { Ok(files) }
+}
+
+/// One file.
+pub(super) struct ExpectedFile {
+    path: PathBuf,
+    /// Its name without extension.
+    pub(super) stem: String,
+    header: Vec<String>,
+    pub(super) rows: Vec<ExpectedRow>,
+}
+
+/// One row.
+pub(super) struct ExpectedRow {
+    line: u64,
+    cells: csv::StringRecord,
+}
+
+impl ExpectedRow {
+    pub(super) fn cell(&self, column: usize) -> &str {
+        self.cells.get(column).unwrap_or_default()
+    }
+}
+
+impl ExpectedFile {
+    pub(super) fn read(path: &Path) -> Result<Self, CompareError> {
+        let bytes = std::fs::read(path).map_err(|source| CompareError::Read { path: path.to_owned(), source })?;
+        // Spreadsheets begin UTF-8 files with a byte order mark.
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+        let bad = |source| CompareError::Csv { path: path.to_owned(), source };
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
+        let header = reader.headers().map_err(bad)?.iter().map(str::to_owned).collect();
+        let rows = reader
+            .records()
+            .map(|record| {
+                let cells = record.map_err(bad)?;
+                Ok(ExpectedRow { line: cells.position().map_or(0, csv::Position::line), cells })
+            })
+            .collect::<Result<_, _>>()?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { path: path.to_owned(), stem, header, rows })
+    }
+
+    pub(super) fn name(&self) -> String {
+        format!("{}.csv", self.stem)
+    }
+
+    /// The columns but that of tolerances.
+    pub(super) fn columns(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.header
+            .iter()
+            .enumerate()
+            .filter(|(_, name)| *name != TOLERANCE)
+            .map(|(index, name)| (index, name.as_str()))
+    }
+
+    /// The number in a cell, or none where it is empty.
+    pub(super) fn number(&self, row: &ExpectedRow, column: usize, name: &str) -> Result<Option<f64>, CompareError> {
+        let text = row.cell(column);
+        if text.is_empty() {
+            return Ok(None);
+        }
+        match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(Some(number)),
+            _ => Err(self.not_a_number(row, name, text)),
+        }
+    }
+
+    /// The row's own tolerance.
+    pub(super) fn tolerance(&self, row: &ExpectedRow) -> Result<Option<f64>, CompareError> {
+        let Some(column) = self.header.iter().position(|name| name == TOLERANCE) else { return Ok(None) };
+        match self.number(row, column, TOLERANCE)? {
+            Some(tolerance) if tolerance < 0.0 => Err(self.not_a_number(row, TOLERANCE, row.cell(column))),
+            tolerance => Ok(tolerance),
+        }
+    }
+
+    fn not_a_number(&self, row: &ExpectedRow, column: &str, got: &str) -> CompareError {
+        CompareError::Number { path: self.path.clone(), line: row.line, column: column.to_owned(), got: got.to_owned() }
+    }
+}

@@ -1,0 +1,209 @@
+//! Results read back.
+
+use std::io::{self, Cursor};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+
+use model::RunMetadata;
+use model::results::{CellError, Column, ColumnType, FrameRow, RESULTS_SCHEMA_VERSION, ResultRow, Row};
+use polars::prelude::{
+    DataFrame, DataType, ParallelStrategy, ParquetReader, PolarsError, PolarsResult, SerReader as _, TimeUnit,
+};
+
+use super::columns::{Cells, data_type};
+use super::{RUN_KEY, VERSION_KEY};
+
+/// Results that could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// The file cannot be opened or read.
+    #[error("cannot read the file; check its name and your rights: {}", path.display())]
+    Open {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The file is not Parquet.
+    #[error("not a Parquet file, or one cut short; make it again with 'aim-batch run': {}", path.display())]
+    NotParquet {
+        /// The file.
+        path: PathBuf,
+        /// What Polars said.
+        source: PolarsError,
+    },
+    /// The file contradicts itself.
+    #[error("the file is damaged: the Parquet reader gave up on it; copy it again, or run the study again: {}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file lacks this program's metadata.
+    #[error(
+        "a Parquet file, but not made by aim-batch: its metadata has no '{key}' (some tools drop it when they write \
+         a file again); take the file that 'aim-batch run' wrote: {}", path.display()
+    )]
+    NotOurs {
+        /// The file.
+        path: PathBuf,
+        /// Missing key.
+        key: &'static str,
+    },
+    /// The file has another schema.
+    #[error(
+        "expected schema version {expected}, got {got}; read it with the aim-batch that wrote it, or run the study \
+         again: {}", path.display()
+    )]
+    OtherVersion {
+        /// The file.
+        path: PathBuf,
+        /// Version that this program reads.
+        expected: u32,
+        /// Version of the file.
+        got: String,
+    },
+    /// The run's metadata cannot be understood.
+    #[error("'{RUN_KEY}' in the file's metadata is damaged; run the study again: {}", path.display())]
+    Metadata {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with the JSON.
+        source: serde_json::Error,
+    },
+    /// A column is missing.
+    #[error(
+        "no column '{column}'; was results.parquet meant, or frames.parquet? Columns must keep their names: {}",
+        path.display()
+    )]
+    MissingColumn {
+        /// The file.
+        path: PathBuf,
+        /// Name of the column.
+        column: &'static str,
+    },
+    /// A column has another type.
+    #[error("expected {expected:?} in column '{column}', got {got}; take the file as aim-batch wrote it: {}", path.display())]
+    ColumnType {
+        /// The file.
+        path: PathBuf,
+        /// Name of the column.
+        column: &'static str,
+        /// Type of the schema.
+        expected: ColumnType,
+        /// Type in the file.
+        got: String,
+    },
+    /// A cell does not fit.
+    #[error("row {row}, column '{column}' does not fit the schema; take the file as aim-batch wrote it: {}", path.display())]
+    Cell {
+        /// The file.
+        path: PathBuf,
+        /// Row, counted from 1.
+        row: usize,
+        /// Name of the column.
+        column: &'static str,
+        /// Expected and got.
+        source: CellError,
+    },
+}
+
+/// The results of a run: what `results.parquet` holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Results {
+    /// Rows, in the order of the file.
+    pub rows: Vec<ResultRow>,
+    /// What they came from.
+    pub metadata: RunMetadata,
+}
+
+impl Results {
+    /// Reads `results.parquet`.
+    ///
+    /// # Errors
+    /// [`ReadError`]: no such file, not Parquet, not made by aim-batch, another schema version, a missing column, or a
+    /// column or cell of another type.
+    pub fn read(path: &Path) -> Result<Self, ReadError> {
+        let (rows, metadata) = read_rows(path)?;
+        Ok(Self { rows, metadata })
+    }
+}
+
+/// Reads `frames.parquet`.
+///
+/// # Errors
+/// As [`Results::read`].
+pub fn read_frames(path: &Path) -> Result<Vec<FrameRow>, ReadError> {
+    Ok(read_rows(path)?.0)
+}
+
+fn read_rows<R: Row>(path: &Path) -> Result<(Vec<R>, RunMetadata), ReadError> {
+    // Read, not mapped: a mapped file that another job shortens would end this one.
+    let bytes = std::fs::read(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
+    let not_parquet = |source| ReadError::NotParquet { path: path.to_owned(), source };
+    // One thread, so that a panic on damaged bytes arises here, where it is caught.
+    let mut reader = ParquetReader::new(Cursor::new(bytes)).set_rechunk(true).read_parallel(ParallelStrategy::None);
+    let metadata = run_metadata(&mut reader, path)?;
+    let frame = guarded(path, || reader.finish())?;
+    for column in R::COLUMNS {
+        check_column(&frame, column, path)?;
+    }
+    let cells: Vec<Cells> =
+        R::COLUMNS.iter().map(|column| Cells::of(&frame, column)).collect::<Result<_, _>>().map_err(not_parquet)?;
+    let rows = (0..frame.height())
+        .map(|row| {
+            R::from_values(cells.iter().map(|column| column.get(row))).map_err(|(column, source)| ReadError::Cell {
+                path: path.to_owned(),
+                row: row + 1,
+                column,
+                source,
+            })
+        })
+        .collect::<Result<_, _>>()?;
+    Ok((rows, metadata))
+}
+
+/// Runs a part of Polars' reader, which panics on some damaged files.
+fn guarded<T>(path: &Path, read: impl FnOnce() -> PolarsResult<T>) -> Result<T, ReadError> {
+    // Nothing that the reader may have left half done is used after a panic.
+    match catch_unwind(AssertUnwindSafe(read)) {
+        Ok(read) => read.map_err(|source| ReadError::NotParquet { path: path.to_owned(), source }),
+        Err(_) => Err(ReadError::Damaged { path: path.to_owned() }),
+    }
+}
+
+fn run_metadata(reader: &mut ParquetReader<Cursor<Vec<u8>>>, path: &Path) -> Result<RunMetadata, ReadError> {
+    let file = guarded(path, || reader.get_metadata())?;
+    let value_of = |key: &'static str| {
+        let mut pairs = file.key_value_metadata.iter().flatten();
+        pairs
+            .find_map(|pair| pair.value.as_ref().filter(|_| pair.key == key))
+            .ok_or(ReadError::NotOurs { path: path.to_owned(), key })
+    };
+    let version = value_of(VERSION_KEY)?;
+    if version.parse() != Ok(RESULTS_SCHEMA_VERSION) {
+        return Err(ReadError::OtherVersion {
+            path: path.to_owned(),
+            expected: RESULTS_SCHEMA_VERSION,
+            got: version.clone(),
+        });
+    }
+    serde_json::from_str(value_of(RUN_KEY)?).map_err(|source| ReadError::Metadata { path: path.to_owned(), source })
+}
+
+fn check_column(frame: &DataFrame, column: &Column, path: &Path) -> Result<(), ReadError> {
+    let found = frame
+        .column(column.name)
+        .map_err(|_| ReadError::MissingColumn { path: path.to_owned(), column: column.name })?
+        .dtype();
+    // A time zone may be written as 'UTC' or '+00:00'; the numbers are the same.
+    let is_utc_ns = matches!(found, DataType::Datetime(TimeUnit::Nanoseconds, Some(_)));
+    if *found == data_type(column.column_type) || (column.column_type == ColumnType::TimeUtc && is_utc_ns) {
+        return Ok(());
+    }
+    Err(ReadError::ColumnType {
+        path: path.to_owned(),
+        column: column.name,
+        expected: column.column_type,
+        got: found.to_string(),
+    })
+}

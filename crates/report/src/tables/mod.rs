@@ -1,0 +1,54 @@
+//! From results to tables.
+
+mod bands;
+mod errors;
+mod footnotes;
+mod printed;
+mod raters;
+mod select;
+mod setups;
+
+use model::{TableLayout, TableSpec};
+
+pub use bands::{error_by_height, error_by_pitch};
+
+use crate::parquet::Results;
+use crate::table::{Column, Table};
+use footnotes::NotedRow;
+
+/// The tables that the study asks for, in its order.
+#[must_use]
+pub fn tables(results: &Results) -> Vec<Table> {
+    results
+        .metadata
+        .tables
+        .iter()
+        .map(|spec| match spec.layout {
+            TableLayout::Setups => setups::table(spec, results),
+            TableLayout::Raters => raters::table(spec, results),
+        })
+        .collect()
+}
+
+/// Puts a table together from what its layout made.
+fn assemble(spec: &TableSpec, results: &Results, statistic: &str, columns: Vec<Column>, rows: Vec<NotedRow>) -> Table {
+    let (rows, footnotes) = footnotes::mark(rows);
+    let mut remarks = Vec::new();
+    if let Some(printed) = &spec.printed {
+        remarks.push(format!("Printed: {}.", printed.source.trim_end_matches('.')));
+    }
+    Table {
+        stem: format!("table_{}", spec.id),
+        label: Some(format!("Table {}", spec.id)),
+        title: spec.title.clone(),
+        statistic: format!(
+            "Error: 100 (predicted - original) / original, signed. {statistic} Method: {}.",
+            spec.method
+        ),
+        columns,
+        rows,
+        footnotes,
+        remarks,
+        statement: results.metadata.statement.clone(),
+    }
+}

@@ -1,0 +1,92 @@
+//! All tables into a folder.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::atomic::{self, FileError};
+use crate::parquet::Results;
+use crate::render::{csv, latex, markdown};
+use crate::table::Table;
+use crate::tables::{error_by_height, error_by_pitch, tables};
+
+/// Tables that could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteError {
+    /// The folder cannot be made.
+    #[error("cannot make the folder for the tables: {}", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Two tables would take the same file.
+    #[error(
+        "two tables would both be written to '{stem}.csv'; give each table of study.toml its own id (upper and lower case alone do not tell them apart)"
+    )]
+    SameFile {
+        /// Name of the file, without extension.
+        stem: String,
+    },
+    /// An id that cannot be part of a file's name.
+    #[error("expected a table id of letters, digits, '-', '_' and '.', got '{id}'; change it in study.toml")]
+    Id {
+        /// The id.
+        id: String,
+    },
+    /// A file could not be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+/// Writes every table as .csv, .md and .tex (`table_II.csv`, ..., `error_by_pitch.csv`, `error_by_height.csv`), and all
+/// of them as `tables.md`. Makes the folder if need be; every file is written aside and renamed.
+///
+/// # Errors
+/// [`WriteError`]. Ids are checked before anything is written.
+pub fn write_dir(results: &Results, dir: &Path) -> Result<(), WriteError> {
+    let tables = every_table(results);
+    check_names(results, &tables)?;
+    std::fs::create_dir_all(dir).map_err(|source| WriteError::Folder { path: dir.to_owned(), source })?;
+    for table in &tables {
+        let file = |extension: &str| dir.join(format!("{}.{extension}", table.stem));
+        atomic::write(&file("csv"), csv(table).as_bytes())?;
+        atomic::write(&file("md"), markdown(table).as_bytes())?;
+        atomic::write(&file("tex"), latex(table).as_bytes())?;
+    }
+    Ok(atomic::write(&dir.join("tables.md"), all_markdown(&tables, results).as_bytes())?)
+}
+
+/// The tables of the study, and error by pitch and by height.
+pub(crate) fn every_table(results: &Results) -> Vec<Table> {
+    let mut tables = tables(results);
+    tables.extend([error_by_pitch(results), error_by_height(results)]);
+    tables
+}
+
+fn check_names(results: &Results, tables: &[Table]) -> Result<(), WriteError> {
+    for spec in &results.metadata.tables {
+        let fits = |character: char| character.is_alphanumeric() || matches!(character, '-' | '_' | '.');
+        if spec.id.is_empty() || !spec.id.chars().all(fits) {
+            return Err(WriteError::Id { id: spec.id.clone() });
+        }
+    }
+    let mut seen = BTreeSet::new();
+    match tables.iter().find(|table| !seen.insert(table.stem.to_lowercase())) {
+        Some(table) => Err(WriteError::SameFile { stem: table.stem.clone() }),
+        None => Ok(()),
+    }
+}
+
+/// One document: the study's statement first, once.
+fn all_markdown(tables: &[Table], results: &Results) -> String {
+    let bare = |table: &Table| Table { statement: None, ..table.clone() };
+    let texts: Vec<String> = tables.iter().map(|table| markdown(&bare(table))).collect();
+    let title = crate::render::markdown_text(&format!("Tables of {}", results.metadata.study));
+    let statement = results.metadata.statement.as_deref().map(crate::render::markdown_text);
+    let mut parts = vec![format!("# {title}\n")];
+    parts.extend(statement.map(|statement| format!("{statement}\n")));
+    parts.extend(texts);
+    parts.join("\n")
+}

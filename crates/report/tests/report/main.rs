@@ -1,0 +1,13 @@
+//! Tests of the crate from outside, in one binary: each would link Polars.
+#![allow(clippy::unwrap_used, clippy::float_cmp, reason = "a test fails by panicking; exact values are meant")]
+
+extern crate aim_batch_report as report;
+
+mod bench;
+mod compare;
+mod escaping;
+mod files;
+mod golden;
+mod misuse;
+mod parquet;
+mod statistics;

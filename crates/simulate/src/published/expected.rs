@@ -1,0 +1,163 @@
+//! What a correct program must print for this study: the published predictions, with errors and statistics worked out
+//! anew from them. Not the printed errors, of which several are misprints (see the notes in study.toml).
+
+use model::ErrorStats;
+use serde::Serialize;
+
+use super::tables::{Published, RaterRow, SetupRow, Table};
+use crate::error::SimulateError;
+use crate::study::StudyFolder;
+
+/// Tolerance, in percentage points, of the summary rows of heights: they rest on sizes printed to 0.01 cm, of which that
+/// is 0.3 %.
+const HEIGHTS_TOLERANCE_PCT: f64 = 0.3;
+
+/// A row of `expected/table_II.csv` to `table_IV.csv`. An empty tolerance leaves it to the command line.
+#[derive(Debug, Clone, Serialize)]
+struct SetupExpected<'a> {
+    row: &'static str,
+    object: Option<&'a str>,
+    height_cm: Option<f64>,
+    pitch_deg: Option<f64>,
+    predicted_cm: Option<f64>,
+    original_cm: Option<f64>,
+    error_pct: f64,
+    sd_pct: Option<f64>,
+    tolerance_pct: Option<f64>,
+}
+
+/// A row of `expected/table_V.csv` and `table_VI.csv`.
+#[derive(Debug, Clone, Serialize)]
+struct RaterExpected<'a> {
+    row: &'static str,
+    object: Option<&'a str>,
+    #[serde(rename = "rater_RA1_cm")]
+    ra1_cm: Option<f64>,
+    #[serde(rename = "rater_RA2_cm")]
+    ra2_cm: Option<f64>,
+    #[serde(rename = "rater_RA3_cm")]
+    ra3_cm: Option<f64>,
+    #[serde(rename = "rater_RA4_cm")]
+    ra4_cm: Option<f64>,
+    mean_cm: Option<f64>,
+    original_cm: Option<f64>,
+    error_pct: f64,
+    sd_pct: Option<f64>,
+    tolerance_pct: Option<f64>,
+}
+
+/// Writes the folder `expected`.
+pub(super) fn write(folder: &StudyFolder, published: &Published) -> Result<(), SimulateError> {
+    let heights = Some(HEIGHTS_TOLERANCE_PCT);
+    for (table, tolerance_pct) in
+        [(&published.plates, None), (&published.bowl_heights, heights), (&published.bowl_diameters, None)]
+    {
+        folder.write_csv(&format!("expected/table_{}.csv", table.id), &setup_rows(table, tolerance_pct))?;
+    }
+    let sizes = &published.container_sizes;
+    folder.write_csv(&format!("expected/table_{}.csv", sizes.id), &rater_rows(sizes, None))?;
+    let table = &published.container_heights;
+    let mut rows = rater_rows(table, heights);
+    let against_printed: Vec<_> = table.rows.iter().map(|row| error_pct(mean_cm(row), row.printed_truth_cm)).collect();
+    rows.extend(rater_overall("overall_printed_truth", &against_printed, heights));
+    folder.write_csv(&format!("expected/table_{}.csv", table.id), &rows)
+}
+
+/// Signed, as the paper counts it.
+fn error_pct(predicted_cm: f64, original_cm: f64) -> f64 {
+    100.0 * (predicted_cm - original_cm) / original_cm
+}
+
+/// To four decimals: far finer than any tolerance, and free of the last bit's noise.
+fn rounded(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4
+}
+
+/// Rows of each object, then its mean and sample SD; at the end those of all rows.
+fn setup_rows(table: &Table<SetupRow>, tolerance_pct: Option<f64>) -> Vec<SetupExpected<'_>> {
+    let mut expected = Vec::new();
+    let errors = |rows: &[&SetupRow]| -> Vec<f64> {
+        rows.iter().map(|row| error_pct(row.predicted_cm, row.original_cm)).collect()
+    };
+    for object in table.objects() {
+        let rows: Vec<_> = table.rows.iter().filter(|row| row.object == object).collect();
+        expected.extend(rows.iter().map(|row| SetupExpected {
+            row: "row",
+            object: Some(object),
+            height_cm: Some(row.height_cm),
+            pitch_deg: Some(row.pitch_deg),
+            predicted_cm: Some(row.predicted_cm),
+            original_cm: Some(row.original_cm),
+            error_pct: rounded(error_pct(row.predicted_cm, row.original_cm)),
+            sd_pct: None,
+            tolerance_pct: None,
+        }));
+        expected.extend(setup_summary("object_mean", Some(object), &errors(&rows), tolerance_pct));
+    }
+    let all: Vec<_> = table.rows.iter().collect();
+    expected.extend(setup_summary("overall", None, &errors(&all), tolerance_pct));
+    expected
+}
+
+fn setup_summary<'a>(
+    row: &'static str,
+    object: Option<&'a str>,
+    errors_pct: &[f64],
+    tolerance_pct: Option<f64>,
+) -> Option<SetupExpected<'a>> {
+    let stats = ErrorStats::of(errors_pct)?;
+    Some(SetupExpected {
+        row,
+        object,
+        height_cm: None,
+        pitch_deg: None,
+        predicted_cm: None,
+        original_cm: None,
+        error_pct: rounded(stats.mean),
+        sd_pct: stats.sample_sd.map(rounded),
+        tolerance_pct,
+    })
+}
+
+fn mean_cm(row: &RaterRow) -> f64 {
+    row.predicted_cm().iter().sum::<f64>() / 4.0
+}
+
+/// A row for each container, then mean and population SD over the rows.
+fn rater_rows(table: &Table<RaterRow>, tolerance_pct: Option<f64>) -> Vec<RaterExpected<'_>> {
+    let errors_pct: Vec<_> = table.rows.iter().map(|row| error_pct(mean_cm(row), row.implied_truth_cm)).collect();
+    let rows = table.rows.iter().zip(&errors_pct).map(|(row, error_pct)| {
+        let [ra1_cm, ra2_cm, ra3_cm, ra4_cm] = row.predicted_cm().map(Some);
+        RaterExpected {
+            row: "row",
+            object: Some(&row.object),
+            ra1_cm,
+            ra2_cm,
+            ra3_cm,
+            ra4_cm,
+            mean_cm: Some(rounded(mean_cm(row))),
+            original_cm: Some(row.implied_truth_cm),
+            error_pct: rounded(*error_pct),
+            sd_pct: None,
+            tolerance_pct: None,
+        }
+    });
+    rows.chain(rater_overall("overall", &errors_pct, tolerance_pct)).collect()
+}
+
+fn rater_overall(row: &'static str, errors_pct: &[f64], tolerance_pct: Option<f64>) -> Option<RaterExpected<'static>> {
+    let stats = ErrorStats::of(errors_pct)?;
+    Some(RaterExpected {
+        row,
+        object: None,
+        ra1_cm: None,
+        ra2_cm: None,
+        ra3_cm: None,
+        ra4_cm: None,
+        mean_cm: None,
+        original_cm: None,
+        error_pct: rounded(stats.mean),
+        sd_pct: Some(rounded(stats.population_sd)),
+        tolerance_pct,
+    })
+}

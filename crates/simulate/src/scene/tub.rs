@@ -1,0 +1,76 @@
+//! A rectangular box without a lid.
+
+use nalgebra::{Point2, Vector2, Vector3};
+
+use super::{Hit, Part, Ray, nearer};
+
+/// A box on the table, with upright walls along X and Y. They have no thickness but for the rim, drawn inwards.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tub {
+    /// Centre on the table.
+    pub center_mm: Point2<f64>,
+    /// Half the extents along X and Y.
+    pub half_size_mm: Vector2<f64>,
+    /// Height of the rim.
+    pub height_mm: f64,
+}
+
+/// Width of the drawn rim.
+const RIM_MM: f64 = 3.0;
+
+impl Tub {
+    pub(super) fn hit(&self, ray: &Ray) -> Option<Hit> {
+        let walls = [0, 1].into_iter().flat_map(|axis| [-1.0, 1.0].map(|side| self.hit_wall(ray, axis, side)));
+        walls.fold(nearer(self.hit_rim(ray), self.hit_floor(ray)), nearer)
+    }
+
+    /// How far a point lies from the nearest wall; positive inside.
+    fn depth_inside(&self, point: Point2<f64>) -> f64 {
+        let depth = self.half_size_mm - (point - self.center_mm).abs();
+        depth.x.min(depth.y)
+    }
+
+    fn hit_rim(&self, ray: &Ray) -> Option<Hit> {
+        let distance = ray.to_level(self.height_mm)?;
+        (0.0..=RIM_MM).contains(&self.depth_inside(ray.at(distance).xy())).then_some(Hit {
+            distance,
+            part: Part::Rim,
+            normal: Vector3::z(),
+            openness: 1.06,
+        })
+    }
+
+    fn hit_floor(&self, ray: &Ray) -> Option<Hit> {
+        let distance = ray.to_level(0.0)?;
+        let depth = self.depth_inside(ray.at(distance).xy());
+        let openness = 0.92 - 0.14 * (-depth / (0.5 * self.height_mm)).exp();
+        (depth >= 0.0).then_some(Hit { distance, part: Part::Floor, normal: Vector3::z(), openness })
+    }
+
+    /// The wall across `axis` (0: X, 1: Y) on one side of the centre.
+    fn hit_wall(&self, ray: &Ray, axis: usize, side: f64) -> Option<Hit> {
+        let wall = self.center_mm[axis] + side * self.half_size_mm[axis];
+        let distance = (wall - ray.origin[axis]) / ray.direction[axis];
+        if !(distance > 0.0 && distance.is_finite()) {
+            return None;
+        }
+        let point = ray.at(distance);
+        let other = 1 - axis;
+        let on_wall = (point[other] - self.center_mm[other]).abs() <= self.half_size_mm[other];
+        if !on_wall || !(0.0..=self.height_mm).contains(&point.z) {
+            return None;
+        }
+        let mut normal = Vector3::zeros();
+        normal[axis] = -ray.direction[axis].signum();
+        let height_share = point.z / self.height_mm;
+        Some(if normal[axis] * side > 0.0 {
+            Hit { distance, part: Part::OuterWall, normal, openness: 0.82 + 0.12 * height_share }
+        } else {
+            Hit { distance, part: Part::InnerWall, normal, openness: 0.8 + 0.15 * height_share }
+        })
+    }
+
+    pub(super) fn distance_outside(&self, point: Point2<f64>) -> f64 {
+        (point - self.center_mm).abs().zip_map(&self.half_size_mm, |d, half| (d - half).max(0.0)).norm()
+    }
+}
