@@ -11,6 +11,8 @@ pub struct Circle {
     pub center_mm: Point2<f64>,
     /// Radius.
     pub radius_mm: f64,
+    /// Standard deviation of the radius, in the unit of the points' scatter: from the inverse of the normal matrix.
+    pub radius_sd: f64,
 }
 
 /// Why points do not give a circle.
@@ -48,7 +50,11 @@ pub fn fit_circle(
         });
         circle = geometric_fit(points_mm, DVector::from_iterator(points_mm.len(), weights), circle);
     }
-    if circle.radius_mm.is_finite() && circle.radius_mm > 0.0 { Ok(circle) } else { Err(CircleError::Degenerate) }
+    if circle.radius_mm > 0.0 && circle.radius_mm.is_finite() && circle.radius_sd.is_finite() {
+        Ok(circle)
+    } else {
+        Err(CircleError::Degenerate)
+    }
 }
 
 /// Kasa's fit: x^2 + y^2 = 2 a x + 2 b y + c in the least-squares sense, about the centroid.
@@ -74,15 +80,24 @@ fn algebraic_fit(points_mm: &[Point2<f64>]) -> Result<Circle, CircleError> {
     }
     let solution = normal.cholesky().ok_or(CircleError::Degenerate)?.solve(&right);
     let radius = (solution.z + solution.x.powi(2) + solution.y.powi(2)).sqrt();
-    Ok(Circle { center_mm: Point2::from(centroid + solution.xy() * scale), radius_mm: radius * scale })
+    Ok(Circle {
+        center_mm: Point2::from(centroid + solution.xy() * scale),
+        radius_mm: radius * scale,
+        radius_sd: f64::NAN,
+    })
 }
 
 fn geometric_fit(points_mm: &[Point2<f64>], weights: DVector<f64>, start: Circle) -> Circle {
     let parameters = Vector3::new(start.center_mm.x, start.center_mm.y, start.radius_mm);
     let problem = RadialDistances { points_mm, weights, parameters };
     let (solved, _) = LevenbergMarquardt::new().minimize(problem);
+    let covariance = solved.jacobian().and_then(|jacobian| jacobian.tr_mul(&jacobian).try_inverse());
     let p = solved.parameters;
-    Circle { center_mm: Point2::new(p.x, p.y), radius_mm: p.z }
+    Circle {
+        center_mm: Point2::new(p.x, p.y),
+        radius_mm: p.z,
+        radius_sd: covariance.map_or(f64::NAN, |covariance| covariance[(2, 2)].sqrt()),
+    }
 }
 
 struct RadialDistances<'a> {

@@ -3,9 +3,11 @@
 use nalgebra::Vector2;
 
 use crate::camera::Camera;
-use crate::container::{Method, Quantity};
-use crate::marks::{Mark, ObjectMarks};
-use crate::measure::{Container, MeasureError, Measured, measure_as_seen, view_of_method};
+use crate::container::{Kind, Method, Quantity};
+use crate::marks::ObjectMarks;
+use crate::measure::{
+    Container, MeasureError, Measured, height_sigma_per_px, measure_as_seen, spans_sigma_per_px, view_of_method,
+};
 use crate::pose::Pose;
 use crate::view::View;
 
@@ -63,8 +65,9 @@ pub struct Estimate {
     pub sigma: Option<SizeSigma>,
 }
 
-/// [`measure`](crate::measure()) with uncertainties, by central differences of one standard uncertainty of each input
-/// through the whole chain, so that a rim plane's own uncertainty reaches the diameter measured on it.
+/// [`measure`](crate::measure()) with uncertainties. Pose and camera: by central differences of one standard uncertainty
+/// through the whole chain, so that a rim plane's own uncertainty reaches the diameter measured on it. Marks: by the
+/// derivatives of the point on the plane by the pixel, for a circle through the normal matrix of its fit.
 #[must_use]
 pub fn estimate(
     view: &View,
@@ -137,31 +140,27 @@ impl Chain<'_> {
         Some(0.5 * (plus - minus))
     }
 
+    /// From the marks: of the span itself, and of the height line through the rim plane.
     fn marks_sigma_mm(&self, quantity: Quantity, mark_px: f64) -> Option<f64> {
-        let mut moved = self.marks.clone();
-        let mut variance = 0.0;
-        for mark in 0..moved.marks.len() {
-            for point in 0..points_px(&mut moved.marks[mark]).len() {
-                for axis in 0..2 {
-                    let mut at = |offset_px: f64| {
-                        let original = points_px(&mut moved.marks[mark])[point];
-                        points_px(&mut moved.marks[mark])[point][axis] += offset_px;
-                        let size_mm = self.size_mm(&self.view, &moved, quantity);
-                        points_px(&mut moved.marks[mark])[point] = original;
-                        size_mm
-                    };
-                    variance += (0.5 * (at(mark_px)? - at(-mark_px)?)).powi(2);
-                }
-            }
+        let height_sigma_mm = || Some(mark_px * height_sigma_per_px(&self.view, self.method, self.marks).ok()?);
+        if quantity == Quantity::Height {
+            return height_sigma_mm();
         }
-        Some(variance.sqrt())
-    }
-}
-
-fn points_px(mark: &mut Mark) -> &mut [nalgebra::Point2<f64>] {
-    match mark {
-        Mark::Line { ends_px, .. } => ends_px,
-        Mark::Outline { points_px, .. } => points_px,
+        let shape = self.container.shape;
+        let (_, size) = self.sizes(&self.view, self.marks).into_iter().find(|(q, _)| *q == quantity)?;
+        let z_mm = size.ok()?.plane_z_mm;
+        let of_span_mm = mark_px * spans_sigma_per_px(&self.view, shape, quantity, self.marks, z_mm).ok()?;
+        if self.container.rim_height_mm.is_some() || self.container.kind == Kind::Plate {
+            return Some(of_span_mm);
+        }
+        let height_sigma_mm = height_sigma_mm()?;
+        let on_plane = |z_mm: f64| {
+            let known = Container { rim_height_mm: Some(z_mm), ..*self.container };
+            let chain = Chain { container: &known, ..*self };
+            chain.size_mm(&chain.view, self.marks, quantity)
+        };
+        let by_height_mm = 0.5 * (on_plane(z_mm + height_sigma_mm)? - on_plane(z_mm - height_sigma_mm)?);
+        Some(of_span_mm.hypot(by_height_mm))
     }
 }
 

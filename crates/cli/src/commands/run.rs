@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
+use anyhow::{Context, anyhow};
 use model::SessionStatus;
 use pipeline::study::StudySpec;
 use pipeline::{RunOptions, Study};
@@ -26,6 +26,9 @@ pub fn run(args: &RunArgs, bars: &Bars) -> Result<Outcome, Failure> {
         force: args.force,
         program: PROGRAM.to_owned(),
     };
+    if let Some(folder) = args.out.parent() {
+        std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    }
     let mut sink = ::report::ParquetSink::create(&args.out, &frames)?;
     let sessions = pipeline::run(&study, &options, &bars.for_run(), &mut sink)?;
 

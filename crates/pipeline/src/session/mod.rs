@@ -104,7 +104,6 @@ fn fill(
     reporter.stage(&dir.name, Stage::Signals);
     let (metadata, frames) = read_frames(study, &mcap, &dir.name)?;
     output.status.problems.extend(metadata.problems.iter().cloned());
-    output.status.problems.extend(metadata.dropped_images.iter().map(dropped_problem));
     let on_card = metadata.inputs_sha256.iter().map(|(file, sha)| (format!("cards/{}/{file}", dir.name), sha.clone()));
     output.inputs_sha256.extend(on_card);
     let session = Session { study, dir, spec, camera, frames, dropped: metadata.dropped_images };
@@ -199,21 +198,6 @@ fn read_frames(study: &Study, mcap: &Path, name: &str) -> Result<(SessionMetadat
     };
     let signals = signals::at_images(&mut reader, &times, &settings).map_err(refuse)?;
     Ok((metadata, images.into_iter().zip(signals).map(|(image, signals)| Frame { image, signals }).collect()))
-}
-
-fn dropped_problem(image: &DroppedImage) -> Problem {
-    Problem {
-        stage: Stage::Ingest,
-        code: image.reason.code().to_owned(),
-        place: image.file.clone(),
-        fact: if image.detail.is_empty() { image.reason.meaning().to_owned() } else { image.detail.clone() },
-        remedy: match image.reason {
-            model::FrameReason::WrongSize => "name the right camera for this session, or remove the picture",
-            model::FrameReason::NoTime => "correct the file name, or the profile's [images] time",
-            _ => "copy the file from the SD card again; if it is damaged there too, it is lost",
-        }
-        .to_owned(),
-    }
 }
 
 fn relative(study: &Study, path: &Path) -> String {

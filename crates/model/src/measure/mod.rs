@@ -1,11 +1,14 @@
 //! From the marks of one object on one picture to its sizes.
 
-use nalgebra::{Matrix2, Point2, Vector2};
+mod span;
 
-use crate::circle::{Circle, CircleError, fit_circle};
+use nalgebra::{Point2, Vector2};
+
+use crate::circle::CircleError;
 use crate::container::{Kind, Method, Quantity, Shape};
 use crate::marks::{Feature, Mark, ObjectMarks};
 use crate::view::{View, ViewError};
+use span::Span;
 
 /// What is known of a container before it is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,6 +105,13 @@ pub fn height_by_ray_mm(view: &View, foot_px: Point2<f64>, rim_px: Point2<f64>) 
     positive_height(view.pose().camera_height_mm() * (1.0 - foot.coords.norm() / rim.coords.norm()))
 }
 
+fn height_mm(view: &View, method: Method, foot_px: Point2<f64>, rim_px: Point2<f64>) -> Result<f64, MeasureError> {
+    match method {
+        Method::Paper => height_by_paper_mm(view, foot_px, rim_px),
+        Method::Ray => height_by_ray_mm(view, foot_px, rim_px),
+    }
+}
+
 fn positive_height(height_mm: f64) -> Result<f64, MeasureError> {
     if height_mm > 0.0 { Ok(height_mm) } else { Err(MeasureError::RimBelowFoot) }
 }
@@ -149,7 +159,7 @@ pub(crate) fn measure_as_seen(
     };
     let mut sizes: Vec<_> = height.map(|result| (Quantity::Height, result)).into_iter().collect();
     for quantity in [Quantity::Diameter, Quantity::Width, Quantity::Length] {
-        let found = marked_spans(container.shape, quantity, marks);
+        let found = Span::of_marks(container.shape, quantity, marks);
         if !found.is_empty() {
             sizes.push((quantity, plane_z_mm.and_then(|z_mm| mean_span(view, quantity, &found, z_mm))));
         }
@@ -158,12 +168,8 @@ pub(crate) fn measure_as_seen(
 }
 
 fn marked_height(view: &View, method: Method, marks: &ObjectMarks) -> Option<Result<Measured, MeasureError>> {
-    let heights_mm: Vec<_> = lines(marks, Quantity::Height)
-        .map(|[foot, rim]| match method {
-            Method::Paper => height_by_paper_mm(view, foot, rim),
-            Method::Ray => height_by_ray_mm(view, foot, rim),
-        })
-        .collect();
+    let heights_mm: Vec<_> =
+        lines(marks, Quantity::Height).map(|[foot, rim]| height_mm(view, method, foot, rim)).collect();
     if heights_mm.is_empty() {
         return None;
     }
@@ -175,88 +181,49 @@ fn marked_height(view: &View, method: Method, marks: &ObjectMarks) -> Option<Res
     }))
 }
 
-/// Something on the rim plane whose extent is a size.
-enum Span<'a> {
-    Line([Point2<f64>; 2]),
-    Circle(&'a [Point2<f64>]),
-    /// Opposite sides of a quadrilateral.
-    Corners {
-        shape: Shape,
-        corners: &'a [Point2<f64>],
-    },
-}
-
-fn marked_spans<'a>(shape: Shape, quantity: Quantity, marks: &'a ObjectMarks) -> Vec<Span<'a>> {
-    let rims = marks.marks.iter().filter_map(|mark| match mark {
-        Mark::Outline { feature: Feature::Rim, points_px } => Some(points_px.as_slice()),
-        Mark::Outline { feature: Feature::Base, .. } | Mark::Line { .. } => None,
-    });
-    let outlines = rims.filter_map(|points| match (shape, quantity) {
-        (Shape::Circle, Quantity::Diameter) => Some(Span::Circle(points)),
-        (Shape::Square, Quantity::Width) | (Shape::Rectangle, Quantity::Width | Quantity::Length) => {
-            Some(Span::Corners { shape, corners: points })
-        }
-        _ => None,
-    });
-    lines(marks, quantity).map(Span::Line).chain(outlines).collect()
-}
-
 fn lines(marks: &ObjectMarks, wanted: Quantity) -> impl Iterator<Item = [Point2<f64>; 2]> + '_ {
     marks.marks.iter().filter_map(move |mark| match mark {
         Mark::Line { quantity, ends_px } if *quantity == wanted => Some(*ends_px),
-        _ => None,
+        Mark::Line { .. } | Mark::Outline { .. } => None,
     })
 }
 
 fn mean_span(view: &View, quantity: Quantity, spans: &[Span<'_>], z_mm: f64) -> Result<Measured, MeasureError> {
-    let sizes_mm = spans.iter().map(|span| match span {
-        Span::Line([a, b]) => Ok(distance_mm(view, *a, *b, z_mm)?),
-        Span::Circle(points) => Ok(2.0 * circle_on_plane(view, points, z_mm)?.radius_mm),
-        Span::Corners { shape, corners } => side_mm(view, *shape, quantity, corners, z_mm),
-    });
-    let (predicted_mm, marks) = mean(sizes_mm.collect())?;
+    let (predicted_mm, marks) = mean(spans.iter().map(|span| span.size_mm(view, quantity, z_mm)).collect())?;
     Ok(Measured { quantity, predicted_mm, plane_z_mm: z_mm, marks })
 }
 
-fn distance_mm(view: &View, a: Point2<f64>, b: Point2<f64>, z_mm: f64) -> Result<f64, ViewError> {
-    Ok((view.on_plane(a, z_mm)? - view.on_plane(b, z_mm)?).norm())
-}
-
-/// The circle through points marked along a level rim, each weighted by what a pixel is worth where it lies.
-fn circle_on_plane(view: &View, points_px: &[Point2<f64>], z_mm: f64) -> Result<Circle, MeasureError> {
-    let on_plane: Vec<_> = points_px.iter().map(|p| view.on_plane(*p, z_mm)).collect::<Result<_, _>>()?;
-    let per_pixel: Vec<_> =
-        points_px.iter().map(|p| plane_from_pixel_jacobian(view, *p, z_mm)).collect::<Result<_, _>>()?;
-    fit_circle(&on_plane, |i, direction| per_pixel[i].tr_mul(&direction).norm())
-        .map_err(|source| MeasureError::Circle { feature: Feature::Rim, source })
-}
-
-/// Derivative of the point on the plane by the pixel, in mm per px, by central differences of one pixel.
-fn plane_from_pixel_jacobian(view: &View, pixel: Point2<f64>, z_mm: f64) -> Result<Matrix2<f64>, ViewError> {
-    let along = |step: Vector2<f64>| -> Result<Vector2<f64>, ViewError> {
-        Ok(view.on_plane(pixel + step * 0.5, z_mm)? - view.on_plane(pixel - step * 0.5, z_mm)?)
-    };
-    Ok(Matrix2::from_columns(&[along(Vector2::x())?, along(Vector2::y())?]))
-}
-
-/// Mean of two opposite sides of a quadrilateral: all four for a square, the shorter or longer pair of a rectangle.
-fn side_mm(
+/// Standard deviation of a size on the plane `z_mm`, per pixel of standard deviation of each marked coordinate. The plane
+/// is taken as known.
+pub(crate) fn spans_sigma_per_px(
     view: &View,
     shape: Shape,
     quantity: Quantity,
-    corners: &[Point2<f64>],
+    marks: &ObjectMarks,
     z_mm: f64,
 ) -> Result<f64, MeasureError> {
-    let &[a, b, c, d] = corners else {
-        return Err(MeasureError::NotFourCorners { shape, points: corners.len() });
-    };
-    let one = 0.5 * (distance_mm(view, a, b, z_mm)? + distance_mm(view, c, d, z_mm)?);
-    let other = 0.5 * (distance_mm(view, b, c, z_mm)? + distance_mm(view, d, a, z_mm)?);
-    Ok(match (shape, quantity) {
-        (Shape::Square, _) => 0.5 * (one + other),
-        (_, Quantity::Width) => one.min(other),
-        _ => one.max(other),
-    })
+    let spans = Span::of_marks(shape, quantity, marks);
+    sigma_of_mean(spans.iter().map(|span| span.sigma_per_px(view, quantity, z_mm)))
+}
+
+/// The same for the height of a wall, by central differences of one pixel.
+pub(crate) fn height_sigma_per_px(view: &View, method: Method, marks: &ObjectMarks) -> Result<f64, MeasureError> {
+    sigma_of_mean(lines(marks, Quantity::Height).map(|[foot, rim]| {
+        let mut variance = 0.0;
+        for step in [Vector2::x() * 0.5, Vector2::y() * 0.5] {
+            let by_foot = height_mm(view, method, foot + step, rim)? - height_mm(view, method, foot - step, rim)?;
+            let by_rim = height_mm(view, method, foot, rim + step)? - height_mm(view, method, foot, rim - step)?;
+            variance += by_foot.powi(2) + by_rim.powi(2);
+        }
+        Ok(variance.sqrt())
+    }))
+}
+
+/// SD of the mean of independent values with these SDs.
+fn sigma_of_mean(sigmas: impl Iterator<Item = Result<f64, MeasureError>>) -> Result<f64, MeasureError> {
+    let (variance, n) = mean(sigmas.map(|sigma| sigma.map(|s| s * s)).collect())?;
+    #[expect(clippy::cast_precision_loss, reason = "a count of marks is far below 2^53")]
+    Ok((variance / n as f64).sqrt())
 }
 
 fn mean(values: Vec<Result<f64, MeasureError>>) -> Result<(f64, usize), MeasureError> {

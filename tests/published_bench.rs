@@ -1,0 +1,81 @@
+//! The main job on the shipped sample.
+
+use std::path::Path;
+
+use crate::support::{assert_exit, copy_folder, published_bench, run, stderr, stdout};
+
+fn run_bench(out: &Path, more: &[&str]) -> std::process::Output {
+    let study = published_bench();
+    let mut arguments = vec!["run", study.to_str().unwrap(), "--out", out.to_str().unwrap()];
+    arguments.extend(more);
+    run(arguments)
+}
+
+#[test]
+fn tables_ii_to_vi_come_out_as_published() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, tables) = (folder.path().join("results.parquet"), folder.path().join("report"));
+    let expected = published_bench().join("expected");
+    let more = ["--expect", expected.to_str().unwrap(), "--tolerance", "0.15", "--report", tables.to_str().unwrap()];
+    let output = run_bench(&out, &more);
+    assert_exit(&output, 0);
+    let text = stdout(&output);
+    for line in ["2.01 ± 4.90", "± 38.11", "4.58 ± 6.78", "-1.34 ± 9.20", "4.70 ± 11.56"] {
+        assert!(text.contains(line), "{line} is missing in\n{text}");
+    }
+    for table in ["II", "III", "IV", "V", "VI"] {
+        for extension in ["csv", "md", "tex"] {
+            assert!(tables.join(format!("table_{table}.{extension}")).is_file());
+        }
+    }
+    assert!(text.contains("proves nothing about accuracy"), "every report of this study says so");
+    let again = run(["report", out.to_str().unwrap()]);
+    assert_exit(&again, 0);
+    assert_eq!(stdout(&again), text, "the results alone give the same tables");
+}
+
+#[test]
+fn jobs_and_a_second_run_do_not_change_a_byte() {
+    let folder = tempfile::tempdir().unwrap();
+    let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    let one = folder.path().join("one.parquet");
+    assert_exit(&run_bench(&one, &["--jobs", "1"]), 0);
+    let (results, frames) = (read("one.parquet"), read("one.frames.parquet"));
+    let two = folder.path().join("two.parquet");
+    assert_exit(&run_bench(&two, &["--jobs", "4"]), 0);
+    assert!(read("two.parquet") == results && read("two.frames.parquet") == frames, "--jobs decides nothing");
+    assert_exit(&run_bench(&one, &[]), 0);
+    assert!(read("one.parquet") == results && read("one.frames.parquet") == frames, "nor does a second run");
+}
+
+#[test]
+fn a_number_that_is_off_fails_and_is_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let expected = folder.path().join("expected");
+    copy_folder(&published_bench().join("expected"), &expected);
+    let table = expected.join("table_II.csv");
+    let text = std::fs::read_to_string(&table).unwrap();
+    assert!(text.contains("16.95"));
+    std::fs::write(&table, text.replacen("16.95", "17.95", 1)).unwrap();
+    let output = run_bench(&folder.path().join("r.parquet"), &["--expect", expected.to_str().unwrap()]);
+    assert_exit(&output, 1);
+    let said = stderr(&output);
+    assert!(said.contains("table_II.csv") && said.contains("predicted_cm") && said.contains("17.95"), "{said}");
+}
+
+#[test]
+fn flags_and_environment_win_over_the_study() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("r.parquet");
+    assert_exit(&run_bench(&out, &["--method", "ray", "--target-pitch", "40", "--pitch-tolerance", "3"]), 0);
+    let rows = report::Results::read(&out).unwrap().rows;
+    assert!(rows.iter().all(|row| row.method == model::Method::Ray));
+    let selected: Vec<f64> = rows.iter().filter(|row| row.selected).filter_map(|row| row.pitch_deg).collect();
+    assert!(!selected.is_empty() && selected.iter().all(|pitch| (pitch - 40.0).abs() <= 3.0));
+
+    let mut command = crate::support::aim_batch();
+    let output =
+        command.env("AIM_BATCH_OUT", &out).args(["run", published_bench().to_str().unwrap(), "--method=paper"]);
+    assert_exit(&output.output().unwrap(), 0);
+    assert!(report::Results::read(&out).unwrap().rows.iter().all(|row| row.method == model::Method::Paper));
+}
