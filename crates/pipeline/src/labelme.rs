@@ -14,7 +14,7 @@ const LARGEST_FILE_BYTES: u64 = 256 * 1024 * 1024;
 const EXPECTED: &str =
     "OBJECT/diameter, OBJECT/width, OBJECT/length or OBJECT/height as a line, OBJECT/rim or OBJECT/base as a polygon";
 
-/// Why a file gives no marks.
+/// Why a file, or one shape of it, gives no marks.
 #[derive(Debug, thiserror::Error)]
 pub enum MarksError {
     /// It cannot be read.
@@ -87,10 +87,12 @@ impl MarksError {
 }
 
 /// What one file holds.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Default)]
 pub struct Marks {
     /// Marks by object, in the order of their names.
     pub objects: Vec<ObjectMarks>,
+    /// Shapes that are no marks: [`MarksError::Shape`], in file order.
+    pub refused: Vec<MarksError>,
 }
 
 #[derive(Deserialize)]
@@ -127,7 +129,8 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, MarksError> {
 /// marked.
 ///
 /// # Errors
-/// [`MarksError`] for the first thing that is wrong: half a set of marks would be measured as if it were whole.
+/// [`MarksError`] where nothing of the file can be used. A shape that is no mark is in [`Marks::refused`]; the others are
+/// kept.
 pub fn parse(bytes: &[u8], path: &Path, picture_px: [u32; 2]) -> Result<Marks, MarksError> {
     let file: File =
         serde_json::from_slice(bytes).map_err(|source| MarksError::Malformed { path: path.to_owned(), source })?;
@@ -137,16 +140,17 @@ pub fn parse(bytes: &[u8], path: &Path, picture_px: [u32; 2]) -> Result<Marks, M
         return Err(MarksError::OtherPicture { path: path.to_owned(), got_width, got_height, width, height });
     }
     let mut objects: BTreeMap<String, Vec<Mark>> = BTreeMap::new();
+    let mut refused = Vec::new();
     for (number, shape) in (1..).zip(&file.shapes) {
-        let (object, mark) = mark(shape).map_err(|fact| MarksError::Shape {
-            path: path.to_owned(),
-            number,
-            label: shape.label.clone(),
-            fact,
-        })?;
-        objects.entry(object).or_default().push(mark);
+        match mark(shape) {
+            Ok((object, mark)) => objects.entry(object).or_default().push(mark),
+            Err(fact) => {
+                refused.push(MarksError::Shape { path: path.to_owned(), number, label: shape.label.clone(), fact });
+            }
+        }
     }
-    Ok(Marks { objects: objects.into_iter().map(|(object, marks)| ObjectMarks { object, marks }).collect() })
+    let objects = objects.into_iter().map(|(object, marks)| ObjectMarks { object, marks }).collect();
+    Ok(Marks { objects, refused })
 }
 
 fn mark(shape: &Shape) -> Result<(String, Mark), String> {
@@ -219,7 +223,10 @@ mod tests {
             (r#"{"label": "p/width", "points": [[1,2],[3,4]], "shape_type": "rectangle"}"#, "got a rectangle with 2"),
             (r#"{"label": "p/rim", "points": [[1,2],[3,4]], "shape_type": "circle"}"#, "got a circle"),
         ] {
-            let error = parse_shapes(shape).unwrap_err().to_string();
+            let good = r#"{"label": "p/width", "points": [[1,2],[3,4]], "shape_type": "line"}"#;
+            let marks = parse_shapes(&format!("{shape}, {good}")).unwrap();
+            assert_eq!(marks.objects.len(), 1, "the other shape is kept");
+            let error = marks.refused[0].to_string();
             assert!(error.contains(expected) && error.contains("shape 1") && error.contains("m.json"), "{error}");
         }
         assert!(parse_shapes(r#"{"label": 7}"#).unwrap_err().to_string().contains("line 1 column"));

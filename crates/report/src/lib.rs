@@ -2,7 +2,7 @@
 //!
 //! - [`ParquetSink`] takes the rows of a run and writes `results.parquet` and `frames.parquet`.
 //! - [`Results`] reads `results.parquet` back, with the metadata of its run; [`read_frames`] reads `frames.parquet`.
-//! - [`tables`] makes the tables that the study asks for, [`error_by_pitch`] and [`error_by_height`] two more.
+//! - [`tables`] makes the tables that the study asks for; [`sizes`], [`error_by_pitch`] and [`error_by_height`] three more.
 //! - [`terminal`], [`csv`], [`markdown`] and [`latex`] draw one [`Table`]; [`write_dir`] writes them all.
 //! - [`compare`] holds the tables against a folder of expected ones: a gate for automatic runs.
 //!
@@ -22,5 +22,5 @@ pub use compare::{CompareError, Comparison, Difference, compare};
 pub use parquet::{ParquetSink, ReadError, Results, SinkError, read_frames};
 pub use render::{csv, latex, markdown, terminal, terminal_set};
 pub use table::{Align, Cell, Column, Footnote, Format, Role, RowKind, Table, TableRow};
-pub use tables::{error_by_height, error_by_pitch, tables};
+pub use tables::{error_by_height, error_by_pitch, sizes, tables};
 pub use write_dir::{WriteError, write_dir};

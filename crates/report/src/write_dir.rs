@@ -8,7 +8,7 @@ use crate::atomic::{self, FileError};
 use crate::parquet::Results;
 use crate::render::{csv, latex, markdown};
 use crate::table::Table;
-use crate::tables::{error_by_height, error_by_pitch, tables};
+use crate::tables::{error_by_height, error_by_pitch, sizes, tables};
 
 /// Tables that could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -40,7 +40,8 @@ pub enum WriteError {
     File(#[from] FileError),
 }
 
-/// Writes every table as .csv, .md and .tex (`table_II.csv`, ..., `error_by_pitch.csv`, `error_by_height.csv`), and all
+/// Writes every table as .csv, .md and .tex (`table_II.csv`, ..., `sizes.csv`, `error_by_pitch.csv`,
+/// `error_by_height.csv`), and all
 /// of them as `tables.md`. Makes the folder if need be; every file is written aside and renamed.
 ///
 /// # Errors
@@ -58,10 +59,10 @@ pub fn write_dir(results: &Results, dir: &Path) -> Result<(), WriteError> {
     Ok(atomic::write(&dir.join("tables.md"), all_markdown(&tables, results).as_bytes())?)
 }
 
-/// The tables of the study, and error by pitch and by height.
+/// The tables of the study, the sizes, and error by pitch and by height.
 pub(crate) fn every_table(results: &Results) -> Vec<Table> {
     let mut tables = tables(results);
-    tables.extend([error_by_pitch(results), error_by_height(results)]);
+    tables.extend([sizes(results), error_by_pitch(results), error_by_height(results)]);
     tables
 }
 

@@ -57,6 +57,9 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome, Failure> {
         })
         .collect();
     print(&if args.json { format!("{}\n", serde_json::to_string_pretty(&sizes)?) } else { text(&sizes, &inputs) })?;
+    for refused in &marks.refused {
+        tracing::error!("{refused}");
+    }
     for size in sizes.iter().filter(|size| size.method == METHODS[0]) {
         if let Some(problem) = &size.problem {
             tracing::error!("{} of '{}': {problem}", size.quantity, size.object);
@@ -65,7 +68,7 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome, Failure> {
     if sizes.iter().all(|size| size.predicted_mm.is_none()) {
         return Err(Failure::Failed(anyhow!("nothing could be measured from the marks in {}", args.marks.display())));
     }
-    Ok(outcome(sizes.iter().any(|size| size.predicted_mm.is_none())))
+    Ok(outcome(!marks.refused.is_empty() || sizes.iter().any(|size| size.predicted_mm.is_none())))
 }
 
 /// The picture must be the camera's: a scaled copy would be measured wrongly without a word.

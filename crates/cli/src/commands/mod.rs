@@ -25,9 +25,12 @@ fn tell(text: &str) -> std::io::Result<()> {
     std::io::stderr().write_all(text.as_bytes())
 }
 
-/// All tables of a run, as text for the terminal.
+/// The tables of a run, as text for the terminal: those that the study asks for, or the sizes if it asks for none.
 fn tables_text(results: &::report::Results) -> String {
     let mut tables = ::report::tables(results);
+    if tables.is_empty() {
+        tables.push(::report::sizes(results));
+    }
     let by_band = [::report::error_by_pitch(results), ::report::error_by_height(results)];
     tables.extend(by_band.into_iter().filter(|table| !table.rows.is_empty()));
     ::report::terminal_set(&tables, None)

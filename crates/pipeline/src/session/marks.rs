@@ -69,6 +69,7 @@ fn read_file(
     let bytes = labelme::read_bytes(path).map_err(refuse)?;
     output.inputs_sha256.insert(place.clone(), sha256_of_bytes(&bytes));
     let marks = labelme::parse(&bytes, path, camera.size_px()).map_err(refuse)?;
+    output.status.problems.extend(marks.refused.into_iter().map(refuse));
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     if let Some(image) = session.dropped.iter().find(|image| stem_of(&image.file) == stem) {
         let fact = format!("its image was dropped: {}", image.reason.meaning());

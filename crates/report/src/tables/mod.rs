@@ -7,10 +7,12 @@ mod printed;
 mod raters;
 mod select;
 mod setups;
+mod sizes;
 
 use model::{TableLayout, TableSpec};
 
 pub use bands::{error_by_height, error_by_pitch};
+pub use sizes::sizes;
 
 use crate::parquet::Results;
 use crate::table::{Column, Table};
