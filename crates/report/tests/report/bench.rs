@@ -165,7 +165,7 @@ pub fn raters() -> Results {
     let rows = vec![
         fused("box", "ben", Some(90.0), 100.0),
         fused("box", "anna", Some(108.0), 100.0),
-        fused("box", "anna", Some(112.0), 100.0),
+        ResultRow { session: "s2".to_owned(), ..fused("box", "anna", Some(112.0), 100.0) },
         fused("bowl", "anna", Some(55.0), 50.0),
         lost,
     ];

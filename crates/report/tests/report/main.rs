@@ -10,4 +10,5 @@ mod files;
 mod golden;
 mod misuse;
 mod parquet;
+mod sizes;
 mod statistics;
