@@ -32,7 +32,7 @@ const PITCH_TOLERANCE_DEG: f64 = 7.5;
 
 /// On pictures outside the target window the marks give sizes this many times as large: a program that selects wrongly
 /// then gets wrong tables.
-const OUTSIDE_WINDOW_FACTOR: f64 = 1.02;
+pub(super) const OUTSIDE_WINDOW_FACTOR: f64 = 1.02;
 
 /// Room between two pictures for the head to turn, in s: short, so that a slow low-pass does not see it from a picture.
 const TURN_S: f64 = 1.6;
