@@ -149,10 +149,10 @@ fn a_camera_that_looks_above_the_horizon() {
 fn sensors_that_are_silent_or_wrong() {
     let study = study();
     study.session("bad", &[Shot { range_mm: 8190.0, marks: None, ..shot() }]);
-    assert_exit(&run_study(&study), 0); // nothing was lost that could have been used
+    assert_told_and_rest_complete(&study, &["no_image_with_pose", "too few valid range samples"]);
     assert_eq!(reasons(&study, "bad"), [FrameReason::NoRange]);
     study.write("cards/bad/accel.csv", "time_s,x_g,y_g,z_g\n1704067210,0,-1,0\n");
-    assert_exit(&run_study(&study), 0);
+    assert_told_and_rest_complete(&study, &["no_image_with_pose", "too few accelerometer samples"]);
     assert_eq!(reasons(&study, "bad"), [FrameReason::NoAcceleration]);
 }
 
@@ -162,6 +162,42 @@ fn bad_session_toml() {
     study.session("bad", &[shot()]);
     study.write("cards/bad/session.toml", "particpant = \"P01\"\n");
     assert_told_and_rest_complete(&study, &["bad_session_toml", "particpant", "participant"]);
+}
+
+/// What goes wrong is in the results too; it must not carry the paths of the machine.
+#[test]
+fn results_with_problems_do_not_depend_on_where_the_study_lies() {
+    let bytes = |out: &str| {
+        let study = study();
+        study.session("bad", &[shot()]);
+        study.write(&format!("marks/A/bad/{}.json", StudyFolder::image_stem(0)), "{");
+        study.session("worse", &[shot()]);
+        study.write("cards/worse/session.toml", "camera = \"none\"\n");
+        std::fs::create_dir_all(study.path().join("cards/empty")).unwrap();
+        let out = study.path().join(out);
+        let arguments = ["run", study.path().to_str().unwrap(), "--out", out.to_str().unwrap()];
+        assert_exit(&run(arguments), 3);
+        (std::fs::read(&out).unwrap(), std::fs::read(out.with_file_name("frames.parquet")).unwrap())
+    };
+    assert!(bytes("here/results.parquet") == bytes("somewhere/else/results.parquet"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_card_behind_a_link_out_of_the_study_is_refused_and_told() {
+    let study = study();
+    let other = self::study();
+    std::os::unix::fs::symlink(other.path().join("cards/good"), study.path().join("cards/linked")).unwrap();
+    assert_told_and_rest_complete(&study, &["link_out_of_study", "cards/linked", "copy the card into the study"]);
+}
+
+#[test]
+fn a_study_of_which_nothing_can_be_used_fails() {
+    let study = StudyFolder::new("", OBJECTS, CAMERA);
+    std::fs::create_dir_all(study.path().join("cards/empty")).unwrap();
+    let output = run_study(&study);
+    assert_exit(&output, 1);
+    assert!(stderr(&output).contains("no session could be used"));
 }
 
 #[track_caller]
@@ -192,6 +228,7 @@ fn configuration_that_cannot_be() {
         assert_refused(study.path(), facts);
     };
     refused("[select]\ntarget_pitch_deg = 120.0\n", OBJECTS, &["select.target_pitch_deg = 120", "0 to 90 degrees"]);
+    refused("[measure]\nmethods = [\"ray\", \"ray\"]\n", OBJECTS, &["measure.methods", "each method once"]);
     refused("time_zone = \"Mars/Olympus\"\n", OBJECTS, &["Mars/Olympus", "IANA"]);
     refused("", "object,kind,shape\nplate,plate,round\n", &["objects.csv", "round", "circle, square, rectangle"]);
     refused("", "object,kind,shape\nplate,plate,circle\nplate,bowl,circle\n", &["line 3", "a second time"]);

@@ -5,6 +5,7 @@
 
 mod bad_input;
 mod layers;
+mod measure;
 mod project;
 mod published_bench;
 mod real;

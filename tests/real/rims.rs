@@ -34,7 +34,7 @@ fn photos(set: &str) -> Option<Vec<(Photo, f64, bool)>> {
 }
 
 #[test]
-fn rims_in_real_scenes_within_1_pct() {
+fn rims_in_real_scenes_agree_within_1_pct() {
     let (Some(one), Some(other)) = (photos("graspnet6dof_realsense"), photos("uois_realsense")) else { return };
     let errors: Vec<(f64, bool)> = one
         .iter()
@@ -43,7 +43,9 @@ fn rims_in_real_scenes_within_1_pct() {
         .collect();
     let all: Vec<f64> = errors.iter().map(|(error, _)| *error).collect();
     let by_ruler: Vec<f64> = errors.iter().filter(|(_, by_ruler)| *by_ruler).map(|(error, _)| *error).collect();
-    summary("rims against a ruler's truth", &by_ruler);
+    let ruler = summary("rims against a ruler's truth", &by_ruler);
+    assert!(ruler.n == 2 && ruler.worst.abs() < 1.5);
+    // The other references are other programs' values for the same rims: agreement, not accuracy.
     let stats = summary("rims against all references", &all);
     assert!(stats.n == 14 && stats.median_absolute < 1.0);
 }

@@ -17,10 +17,9 @@ pub enum LogFormat {
     Json,
 }
 
-/// Starts logging: errors and warnings, with `-v` also information, with `-vv` debugging.
+/// Starts logging: errors, with `-v` also warnings and information, with `-vv` debugging. As JSON, warnings always.
 ///
-/// Session problems are warnings; the commands that list them at their end pass them on as a list, so the log shows them
-/// from `-v` on, or always as JSON.
+/// The problems of sessions are warnings: `run` lists them at its end, for people, and the log has them for programs.
 pub fn start(verbose: u8, format: LogFormat, bars: &Bars) {
     let level = match (verbose, format) {
         (0, LogFormat::Text) => LevelFilter::ERROR,

@@ -1,6 +1,6 @@
 //! Circles through marked points.
 
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
+use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::storage::Owned;
 use nalgebra::{DVector, Dyn, Matrix3, OMatrix, Point2, U3, Vector3};
 
@@ -90,8 +90,12 @@ fn algebraic_fit(points_mm: &[Point2<f64>]) -> Result<Circle, CircleError> {
 fn geometric_fit(points_mm: &[Point2<f64>], weights: DVector<f64>, start: Circle) -> Circle {
     let parameters = Vector3::new(start.center_mm.x, start.center_mm.y, start.radius_mm);
     let problem = RadialDistances { points_mm, weights, parameters };
-    let (solved, _) = LevenbergMarquardt::new().minimize(problem);
-    let covariance = solved.jacobian().and_then(|jacobian| jacobian.tr_mul(&jacobian).try_inverse());
+    let (solved, report) = LevenbergMarquardt::new().minimize(problem);
+    // A fit that cannot be improved within rounding is a fit; one that ran out of steps or numbers is none.
+    let settled = report.termination.was_successful()
+        || matches!(report.termination, TerminationReason::NoImprovementPossible(_));
+    let covariance =
+        solved.jacobian().filter(|_| settled).and_then(|jacobian| jacobian.tr_mul(&jacobian).try_inverse());
     let p = solved.parameters;
     Circle {
         center_mm: Point2::new(p.x, p.y),

@@ -25,10 +25,4 @@ impl FrameReason {
     pub fn has_pose(self) -> bool {
         matches!(self, Self::Moving | Self::PitchOutsideTarget | Self::Selected)
     }
-
-    /// Whether data was lost, as opposed to an image that was looked at and not chosen.
-    #[must_use]
-    pub fn is_loss(self) -> bool {
-        matches!(self, Self::EmptyImage | Self::NotAnImage | Self::WrongSize | Self::NoTime)
-    }
 }

@@ -22,7 +22,7 @@ pub struct Problem {
     pub stage: Stage,
     /// Stable code, snake case.
     pub code: String,
-    /// The file or object, relative to the study.
+    /// The file or folder, relative to the study.
     pub place: String,
     /// What is wrong: expected and got.
     pub fact: String,
@@ -43,7 +43,7 @@ pub struct SessionStatus {
     pub with_pose: usize,
     /// Images used for fused sizes.
     pub selected: usize,
-    /// Rows in the results.
+    /// Sizes that could be measured: of single images and fused, by all methods.
     pub sizes: usize,
     /// What went wrong; empty when all is well.
     pub problems: Vec<Problem>,

@@ -1,5 +1,7 @@
 //! What the uncertainty of the inputs does to a size: first-order propagation.
 
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
 use nalgebra::Vector2;
 
 use crate::camera::Camera;
@@ -17,8 +19,9 @@ use crate::view::View;
 pub struct InputSigma {
     /// Pitch: accelerometer (17 mg per degree; ADXL362 data sheet: zero-g offset of tens of mg) and mount offset.
     pub pitch_rad: f64,
-    /// Roll, likewise.
-    pub roll_rad: f64,
+    /// Sideways tilt of gravity, from the same sources. Turning about the optical axis moves 'down' by only cos(pitch) per
+    /// radian, so the roll is uncertain by this over cos(pitch).
+    pub tilt_rad: f64,
     /// Range, relative (VL53L0X data sheet: about 3 % uncalibrated).
     pub range_relative: f64,
     /// One coordinate of one marked point.
@@ -107,12 +110,9 @@ impl Chain<'_> {
         let (pose, camera) = (*self.view.pose(), *self.view.camera());
         let by_pose = |pitch_rad: f64, roll_rad: f64, range_mm: f64| {
             self.half_difference(quantity, |sign| {
-                let moved = Pose::new(
-                    (pose.pitch_rad() + sign * pitch_rad).min(std::f64::consts::FRAC_PI_2),
-                    pose.roll_rad() + sign * roll_rad,
-                    pose.range_mm() + sign * range_mm,
-                );
-                Some(View::new(camera, moved.ok()?))
+                let (pitch_rad, roll_rad) =
+                    across_the_zenith(pose.pitch_rad() + sign * pitch_rad, pose.roll_rad() + sign * roll_rad);
+                Some(View::new(camera, Pose::new(pitch_rad, roll_rad, pose.range_mm() + sign * range_mm).ok()?))
             })
         };
         let by_camera = |focal: f64, x_px: f64, y_px: f64| {
@@ -127,7 +127,7 @@ impl Chain<'_> {
         ];
         Some(SizeSigma {
             pitch_mm: by_pose(inputs.pitch_rad, 0.0, 0.0)?.abs(),
-            roll_mm: by_pose(0.0, inputs.roll_rad, 0.0)?.abs(),
+            roll_mm: by_pose(0.0, inputs.tilt_rad / pose.pitch_rad().cos().max(STEEPEST_COS), 0.0)?.abs(),
             range_mm: by_pose(0.0, 0.0, inputs.range_relative * pose.range_mm())?.abs(),
             marks_mm: self.marks_sigma_mm(quantity, inputs.mark_px)?,
             camera_mm: camera_parts.iter().map(|p| p * p).sum::<f64>().sqrt(),
@@ -162,6 +162,16 @@ impl Chain<'_> {
         let by_height_mm = 0.5 * (on_plane(z_mm + height_sigma_mm)? - on_plane(z_mm - height_sigma_mm)?);
         Some(of_span_mm.hypot(by_height_mm))
     }
+}
+
+/// Looking straight down, roll is a turn of the world, which changes no size: its uncertainty is not followed further.
+const STEEPEST_COS: f64 = 0.02;
+
+/// The same pose with the pitch at most 90 degrees (beyond it, the camera has turned about) and the roll within a turn.
+fn across_the_zenith(pitch_rad: f64, roll_rad: f64) -> (f64, f64) {
+    let (pitch_rad, roll_rad) =
+        if pitch_rad > FRAC_PI_2 { (PI - pitch_rad, roll_rad + PI) } else { (pitch_rad, roll_rad) };
+    (pitch_rad, (roll_rad + PI).rem_euclid(TAU) - PI)
 }
 
 fn moved_camera(camera: &Camera, focal_relative: f64, principal_px: Vector2<f64>) -> Option<Camera> {

@@ -1,6 +1,8 @@
 //! Marks made by people, as LabelMe files (<https://github.com/wkentaro/labelme>).
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use model::{Feature, Mark, ObjectMarks, Quantity};
@@ -23,15 +25,13 @@ pub enum MarksError {
         /// The file.
         path: PathBuf,
         /// Why.
-        source: std::io::Error,
+        source: io::Error,
     },
     /// It is too large for marks.
-    #[error("the file has {bytes} bytes: marks have at most {LARGEST_FILE_BYTES}: {}", path.display())]
+    #[error("the file has more than {LARGEST_FILE_BYTES} bytes, too many for marks: {}", path.display())]
     TooLarge {
         /// The file.
         path: PathBuf,
-        /// Its size.
-        bytes: u64,
     },
     /// It is not LabelMe's JSON.
     #[error("not a LabelMe file: {source}; open it in LabelMe and save it again: {}", path.display())]
@@ -96,7 +96,7 @@ pub struct Marks {
 }
 
 #[derive(Deserialize)]
-struct File {
+struct LabelMeFile {
     shapes: Vec<Shape>,
     #[serde(rename = "imageWidth", default)]
     width_px: Option<u32>,
@@ -118,11 +118,16 @@ struct Shape {
 /// [`MarksError::Unreadable`] and [`MarksError::TooLarge`].
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, MarksError> {
     let unreadable = |source| MarksError::Unreadable { path: path.to_owned(), source };
-    let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
-    if bytes > LARGEST_FILE_BYTES {
-        return Err(MarksError::TooLarge { path: path.to_owned(), bytes });
+    if !std::fs::metadata(path).map_err(unreadable)?.is_file() {
+        return Err(unreadable(io::Error::other("not a regular file")));
     }
-    std::fs::read(path).map_err(unreadable)
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(unreadable)?;
+    file.take(LARGEST_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > LARGEST_FILE_BYTES {
+        return Err(MarksError::TooLarge { path: path.to_owned() });
+    }
+    Ok(bytes)
 }
 
 /// Parses the bytes of a LabelMe file. `path` is for messages; `picture_px`: width and height of the pictures that were
@@ -132,7 +137,7 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, MarksError> {
 /// [`MarksError`] where nothing of the file can be used. A shape that is no mark is in [`Marks::refused`]; the others are
 /// kept.
 pub fn parse(bytes: &[u8], path: &Path, picture_px: [u32; 2]) -> Result<Marks, MarksError> {
-    let file: File =
+    let file: LabelMeFile =
         serde_json::from_slice(bytes).map_err(|source| MarksError::Malformed { path: path.to_owned(), source })?;
     let [width, height] = picture_px;
     let (got_width, got_height) = (file.width_px.unwrap_or(width), file.height_px.unwrap_or(height));

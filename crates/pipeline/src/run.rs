@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use model::{Problem, ResultSink, RunMetadata, SessionStatus, Stage};
 use rayon::prelude::*;
@@ -104,7 +104,7 @@ fn guarded(study: &Study, dir: &SessionDir, options: &SessionOptions, reporter: 
             let problem = Problem {
                 stage: Stage::Measure,
                 code: "internal_error".to_owned(),
-                place: dir.name.clone(),
+                place: format!("cards/{}", dir.name),
                 fact: format!("the program failed on this session: {}", said.unwrap_or("no message")),
                 remedy: "report it with this message; the other sessions are not affected".to_owned(),
             };
@@ -124,6 +124,7 @@ fn settings(study: &Study) -> Result<serde_json::Value, serde_json::Error> {
     Ok(serde_json::json!({
         "study": study.spec,
         "camera": study.camera_spec,
+        "marks_camera": study.marks_camera.as_ref().map(|(spec, _)| spec),
         "device_profile": study.profile,
     }))
 }
@@ -135,9 +136,17 @@ fn study_inputs<E: std::error::Error>(study: &Study) -> Result<BTreeMap<String, 
         files.push(printed.rows.clone());
         files.extend(printed.summaries.clone());
     }
+    files.extend(device_files(&study.dir.join("devices")).into_iter().map(|name| format!("devices/{name}")));
     let hash = |file: String| {
         let path = study.dir.join(&file);
         sha256_of_file(&path).map(|sha| (file, sha)).map_err(|source| RunError::Input { path, source })
     };
     files.into_iter().map(hash).collect()
+}
+
+/// Names of the study's own profiles and cameras.
+fn device_files(devices: &Path) -> Vec<String> {
+    let names =
+        std::fs::read_dir(devices).into_iter().flatten().filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    names.filter(|name| name.ends_with(".toml")).collect()
 }

@@ -1,6 +1,8 @@
 //! `measure`: sizes of what is marked in one picture.
 
 use std::fmt::Write as _;
+use std::fs::File;
+use std::io::Read;
 
 use anyhow::{Context, anyhow};
 use model::{Container, Estimate, InputSigma, Kind, MeasureError, Method, Quantity, Shape, estimate};
@@ -32,6 +34,9 @@ struct Size {
     problem: Option<String>,
 }
 
+/// More of a picture is not read to find its size.
+const LARGEST_PICTURE_BYTES: u64 = 64 << 20;
+
 /// The methods, the one with fewer assumptions first.
 const METHODS: [Method; 2] = [Method::Ray, Method::Paper];
 
@@ -57,8 +62,13 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome, Failure> {
         })
         .collect();
     print(&if args.json { format!("{}\n", serde_json::to_string_pretty(&sizes)?) } else { text(&sizes, &inputs) })?;
+    let mut lost = !marks.refused.is_empty();
     for refused in &marks.refused {
         tracing::error!("{refused}");
+    }
+    for object in marks.objects.iter().filter(|object| sizes.iter().all(|size| size.object != object.object)) {
+        lost = true;
+        tracing::error!("the marks of '{}' give no size of a {shape}", object.object);
     }
     for size in sizes.iter().filter(|size| size.method == METHODS[0]) {
         if let Some(problem) = &size.problem {
@@ -68,13 +78,15 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome, Failure> {
     if sizes.iter().all(|size| size.predicted_mm.is_none()) {
         return Err(Failure::Failed(anyhow!("nothing could be measured from the marks in {}", args.marks.display())));
     }
-    Ok(outcome(!marks.refused.is_empty() || sizes.iter().any(|size| size.predicted_mm.is_none())))
+    Ok(outcome(lost || sizes.iter().any(|size| size.predicted_mm.is_none())))
 }
 
 /// The picture must be the camera's: a scaled copy would be measured wrongly without a word.
 fn check_picture(args: &MeasureArgs, [width, height]: [u32; 2]) -> Result<(), Failure> {
-    let bytes =
-        std::fs::read(&args.image).with_context(|| format!("cannot read the picture {}", args.image.display()))?;
+    let mut bytes = Vec::new();
+    File::open(&args.image)
+        .and_then(|file| file.take(LARGEST_PICTURE_BYTES).read_to_end(&mut bytes))
+        .with_context(|| format!("cannot read the picture {}", args.image.display()))?;
     let header =
         ::ingest::parse::image_header::read(&bytes).with_context(|| format!("picture {}", args.image.display()))?;
     if [header.width_px, header.height_px] == [width, height] {
@@ -135,11 +147,12 @@ fn text(sizes: &[Size], inputs: &InputSigma) -> String {
     }
     let _ = writeln!(
         text,
-        "sigma: k = 1, for {:.1} degrees of pitch and roll, {:.1} % of range, {:.1} px of marks, {:.1} % of focal length",
+        "sigma: k = 1, for {:.1} degrees of pitch and sideways tilt, {:.1} % of range, {:.1} px of marks, {:.1} % of focal length,\n       {:.0} px of principal point",
         inputs.pitch_rad.to_degrees(),
         100.0 * inputs.range_relative,
         inputs.mark_px,
         100.0 * inputs.focal_relative,
+        inputs.principal_px,
     );
     text
 }

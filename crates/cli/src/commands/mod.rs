@@ -8,21 +8,24 @@ pub mod run;
 pub mod simulate;
 mod view;
 
+use std::io::{self, Write};
+
 use crate::exit::Outcome;
 
 /// Program and version, for provenance.
 pub const PROGRAM: &str = concat!("aim-batch ", env!("CARGO_PKG_VERSION"));
 
-/// Writes results to stdout.
-fn print(text: &str) -> std::io::Result<()> {
-    use std::io::Write;
-    std::io::stdout().write_all(text.as_bytes())
+/// Writes results to stdout. A reader that has gone (`aim-batch ... | head`) does not stop what is still to be done.
+fn print(text: &str) -> io::Result<()> {
+    match io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        written => written,
+    }
 }
 
 /// Writes what the user should know to stderr.
-fn tell(text: &str) -> std::io::Result<()> {
-    use std::io::Write;
-    std::io::stderr().write_all(text.as_bytes())
+fn tell(text: &str) -> io::Result<()> {
+    io::stderr().write_all(text.as_bytes())
 }
 
 /// The tables of a run, as text for the terminal: those that the study asks for, or the sizes if it asks for none.

@@ -17,15 +17,16 @@ const WORLD_COLUMNS: [&str; 2] = ["world_x_mm", "world_y_mm"];
 pub fn run(args: &ProjectArgs) -> Result<Outcome, Failure> {
     let view = view::from_args(&args.pose)?;
     let (from, to) = if args.inverse { (WORLD_COLUMNS, PIXEL_COLUMNS) } else { (PIXEL_COLUMNS, WORLD_COLUMNS) };
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(io::stdin().lock());
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(io::stdin().lock());
     let columns = columns_of(reader.headers().map_err(Failure::usage)?, from)?;
     let mut writer = csv::Writer::from_writer(io::stdout().lock());
     writer.write_record(from.iter().chain(&to))?;
     let mut lost = false;
-    for record in reader.records() {
+    for record in reader.byte_records() {
         let record = record.map_err(Failure::usage)?;
         let line = record.position().map_or(0, csv::Position::line);
-        let texts = columns.map(|column| record.get(column).unwrap_or_default());
+        let cells = columns.map(|column| String::from_utf8_lossy(record.get(column).unwrap_or_default()));
+        let texts = [&*cells[0], &*cells[1]];
         match project(args, &view, texts) {
             Ok([a, b]) => writer.write_record([texts[0], texts[1], &a.to_string(), &b.to_string()])?,
             Err(why) => {

@@ -45,6 +45,9 @@ pub fn run(args: &RunArgs, bars: &Bars) -> Result<Outcome, Failure> {
             return Err(Failure::Failed(anyhow!("the tables differ from those in {}", dir.display())));
         }
     }
+    if sessions.iter().all(|session| session.failed) {
+        return Err(Failure::Failed(anyhow!("no session could be used")));
+    }
     Ok(outcome(sessions.iter().any(|session| session.failed || !session.problems.is_empty())))
 }
 

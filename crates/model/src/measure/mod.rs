@@ -60,6 +60,19 @@ pub enum MeasureError {
          above it"
     )]
     RimBelowFoot,
+    /// A height that a wall seen from above cannot have.
+    #[error(
+        "a wall {height_mm:.0} mm high would reach above the camera, which is {camera_height_mm:.0} mm above the table"
+    )]
+    RimAboveCamera {
+        /// The height found.
+        height_mm: f64,
+        /// Height of the camera.
+        camera_height_mm: f64,
+    },
+    /// The ends of a line, or two corners, lie on one spot.
+    #[error("the marked points lie on one spot: draw the mark again")]
+    NoLength,
     /// A rim polygon of a square or rectangle that is not four corners.
     #[error("rim outline of a {shape}: expected its 4 corners, got {points} points")]
     NotFourCorners {
@@ -79,6 +92,8 @@ impl MeasureError {
             Self::Circle { .. } => "no_circle",
             Self::NoHeight => "no_height",
             Self::RimBelowFoot => "rim_below_foot",
+            Self::RimAboveCamera { .. } => "rim_above_camera",
+            Self::NoLength => "no_length",
             Self::NotFourCorners { .. } => "not_four_corners",
         }
     }
@@ -92,7 +107,7 @@ impl MeasureError {
 pub fn height_by_paper_mm(view: &View, foot_px: Point2<f64>, rim_px: Point2<f64>) -> Result<f64, MeasureError> {
     let (foot, rim) = (view.on_plane(foot_px, 0.0)?, view.on_plane(rim_px, 0.0)?);
     let projected_mm = rim.y - foot.y; // H'
-    positive_height(view.pose().pitch_rad().tan() * projected_mm) // Eq. (14)
+    possible_height(view, view.pose().pitch_rad().tan() * projected_mm) // Eq. (14)
 }
 
 /// Wall height by the rim point's own ray, exact for a vertical wall: H = c (1 - |foot| / |rim|), with distances on
@@ -102,7 +117,7 @@ pub fn height_by_paper_mm(view: &View, foot_px: Point2<f64>, rim_px: Point2<f64>
 /// As [`height_by_paper_mm`].
 pub fn height_by_ray_mm(view: &View, foot_px: Point2<f64>, rim_px: Point2<f64>) -> Result<f64, MeasureError> {
     let (foot, rim) = (view.on_plane(foot_px, 0.0)?, view.on_plane(rim_px, 0.0)?);
-    positive_height(view.pose().camera_height_mm() * (1.0 - foot.coords.norm() / rim.coords.norm()))
+    possible_height(view, view.pose().camera_height_mm() * (1.0 - foot.coords.norm() / rim.coords.norm()))
 }
 
 fn height_mm(view: &View, method: Method, foot_px: Point2<f64>, rim_px: Point2<f64>) -> Result<f64, MeasureError> {
@@ -112,8 +127,16 @@ fn height_mm(view: &View, method: Method, foot_px: Point2<f64>, rim_px: Point2<f
     }
 }
 
-fn positive_height(height_mm: f64) -> Result<f64, MeasureError> {
-    if height_mm > 0.0 { Ok(height_mm) } else { Err(MeasureError::RimBelowFoot) }
+/// A height above the table and below the camera.
+fn possible_height(view: &View, height_mm: f64) -> Result<f64, MeasureError> {
+    let camera_height_mm = view.pose().camera_height_mm();
+    if height_mm >= camera_height_mm {
+        Err(MeasureError::RimAboveCamera { height_mm, camera_height_mm })
+    } else if height_mm > 0.0 {
+        Ok(height_mm)
+    } else {
+        Err(MeasureError::RimBelowFoot)
+    }
 }
 
 /// The sizes of one marked object: heights first, then what is measured on the rim plane Z = H (plates: Z = 0, unless

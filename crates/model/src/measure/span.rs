@@ -43,9 +43,9 @@ impl<'a> Span<'a> {
     /// Its size on the plane `z_mm`.
     pub(super) fn size_mm(&self, view: &View, quantity: Quantity, z_mm: f64) -> Result<f64, MeasureError> {
         match self {
-            Span::Line([a, b]) => Ok((view.on_plane(*a, z_mm)? - view.on_plane(*b, z_mm)?).norm()),
+            Span::Line([a, b]) => length((view.on_plane(*a, z_mm)? - view.on_plane(*b, z_mm)?).norm()),
             Span::Circle(points) => Ok(2.0 * circle_on_plane(view, points, z_mm)?.radius_mm),
-            Span::Corners { shape, corners } => Ok(sides(view, *shape, quantity, corners, z_mm)?.length_mm),
+            Span::Corners { shape, corners } => length(sides(view, *shape, quantity, corners, z_mm)?.length_mm),
         }
     }
 
@@ -67,6 +67,11 @@ impl<'a> Span<'a> {
             }
         }
     }
+}
+
+/// A size is more than nothing.
+fn length(length_mm: f64) -> Result<f64, MeasureError> {
+    if length_mm > 0.0 { Ok(length_mm) } else { Err(MeasureError::NoLength) }
 }
 
 /// The circle through points marked along a level rim, each weighted by what a pixel is worth where it lies.

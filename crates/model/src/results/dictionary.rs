@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use crate::frame_log::FrameReason;
+
 use super::{Column, ColumnType, FRAME_COLUMNS, RESULT_COLUMNS, RESULTS_SCHEMA_VERSION};
 
 /// Markdown of the data dictionary. A test holds docs/results.md against it.
@@ -13,17 +15,35 @@ pub fn dictionary_markdown() -> String {
          `AIM_BATCH_UPDATE=1 cargo test -p aim-batch-model --test dictionary` rewrites it.\n\n\
          Schema version {RESULTS_SCHEMA_VERSION}. It rises when a column is removed or renamed, or changes its type, unit \
          or meaning; a new column at the end does not raise it.\n\
-         Rows are in a defined order: by session, then by time, object, rater, quantity, method and level as the program \
-         met them. The key-value metadata `aim_batch.run` of both files is a JSON object with program version, resolved \
+         Rows of results.parquet are ordered by session; in it first those of level frame by time, image, object, rater, \
+         quantity and method, then the fused ones by object, rater, quantity and method. Rows of frames.parquet are ordered \
+         by session, then by time, with the images that could not be used last. The key-value metadata `aim_batch.run` of both files is a JSON object with program version, resolved \
          settings, tables, status of every session and SHA-256 of every input.\n"
     );
     section(
         &mut text,
         "results.parquet",
-        "One row per session, object, rater, quantity, method and level.",
+        "One row per session, object, rater, quantity, method and level; for level frame one per image.",
         RESULT_COLUMNS,
     );
     section(&mut text, "frames.parquet", "One row per image of the study, kept or dropped.", FRAME_COLUMNS);
+    text
+}
+
+/// Markdown of the ledger's reasons, docs/ledger.md. A test holds the file against it.
+#[must_use]
+pub fn ledger_markdown() -> String {
+    let mut text = "# The ledger: why an image was kept or dropped\n\n\
+                    Every image of a study has one row in frames.parquet with one reason: the first that applies, in this \
+                    order. Images with a pose (the last three) are measured where they are marked; only `selected` ones \
+                    count for fused sizes.\n\n\
+                    Made from `FrameReason` in `crates/model/src/frame_log.rs`; `cargo test` compares, \
+                    `AIM_BATCH_UPDATE=1 cargo test -p aim-batch-model --test dictionary` rewrites it.\n\n\
+                    | reason | meaning |\n|---|---|\n"
+        .to_owned();
+    for reason in FrameReason::ALL {
+        let _ = writeln!(text, "| `{}` | {} |", reason.code(), reason.meaning());
+    }
     text
 }
 

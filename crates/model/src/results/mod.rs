@@ -8,5 +8,5 @@ mod dictionary;
 mod row;
 
 pub use cell::{Cell, CellError, ColumnType, Value};
-pub use dictionary::dictionary_markdown;
+pub use dictionary::{dictionary_markdown, ledger_markdown};
 pub use row::{Column, FRAME_COLUMNS, FrameRow, Level, RESULT_COLUMNS, RESULTS_SCHEMA_VERSION, ResultRow, Row};

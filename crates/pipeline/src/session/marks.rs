@@ -1,11 +1,11 @@
 //! The marks of a session: LabelMe files of every rater, matched with its images and the study's objects.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use model::{ObjectMarks, Problem, Stage};
+use model::{FrameReason, ObjectMarks, Problem, Stage};
 
-use super::{Session, SessionOutput, relative};
+use super::{LINK_FACT, Session, SessionOutput, relative};
 use crate::inputs::sha256_of_bytes;
 use crate::labelme::{self, MarksError};
 
@@ -19,11 +19,15 @@ impl SessionMarks {
     /// Reads the marks of all raters. What cannot be used becomes a problem; the rest is kept.
     pub(super) fn read(session: &Session<'_>, output: &mut SessionOutput) -> Self {
         let mut marks = Self::default();
+        let images = images_by_stem(session);
         for (rater, dir) in &session.dir.marks {
             for file in files_of(session, dir, &mut output.status.problems) {
-                match read_file(session, &file, output) {
+                match read_file(session, &images, &file, output) {
                     Ok(Some((image, objects))) => {
-                        marks.by_image.entry(image).or_default().insert(rater.clone(), objects);
+                        let by_rater = marks.by_image.entry(image).or_default();
+                        if by_rater.insert(rater.clone(), objects).is_some() {
+                            output.status.problems.push(twice(relative(session.study, &file)));
+                        }
                     }
                     Ok(None) => {}
                     Err(problem) => output.status.problems.push(problem),
@@ -39,7 +43,17 @@ impl SessionMarks {
     }
 }
 
+fn twice(place: String) -> Problem {
+    let fact = "a second file of this rater for the same image; it takes the place of the first".to_owned();
+    problem("marks_twice", place, fact, "keep one of them")
+}
+
 fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> Vec<PathBuf> {
+    if !session.study.holds(dir) {
+        let remedy = "copy the marks into the study";
+        problems.push(problem("link_out_of_study", relative(session.study, dir), LINK_FACT.to_owned(), remedy));
+        return Vec::new();
+    }
     match std::fs::read_dir(dir).and_then(|entries| entries.map(|e| Ok(e?.path())).collect::<Result<Vec<_>, _>>()) {
         Ok(mut paths) => {
             paths.retain(|path| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json")));
@@ -58,11 +72,12 @@ fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> V
 /// its own).
 fn read_file(
     session: &Session<'_>,
+    images: &ImagesByStem<'_>,
     path: &Path,
     output: &mut SessionOutput,
 ) -> Result<Option<(String, Vec<ObjectMarks>)>, Problem> {
     let place = relative(session.study, path);
-    let camera = session.study.marks_camera.as_ref().unwrap_or(&session.camera);
+    let camera = session.study.marks_camera.as_ref().map_or(&session.camera, |(_, camera)| camera);
     let refuse = |error: MarksError| {
         problem(error.code(), place.clone(), error.to_string(), "correct the marks in LabelMe and run again")
     };
@@ -70,35 +85,47 @@ fn read_file(
     output.inputs_sha256.insert(place.clone(), sha256_of_bytes(&bytes));
     let marks = labelme::parse(&bytes, path, camera.size_px()).map_err(refuse)?;
     output.status.problems.extend(marks.refused.into_iter().map(refuse));
-    let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    if let Some(image) = session.dropped.iter().find(|image| stem_of(&image.file) == stem) {
-        let fact = format!("its image was dropped: {}", image.reason.meaning());
-        output.status.problems.push(problem(
-            "marked_image_dropped",
-            place,
-            fact,
-            "see the problem of the image itself",
-        ));
-        return Ok(None);
-    }
-    let images: BTreeSet<&str> =
-        session.frames.iter().map(|f| f.image.file.as_str()).filter(|file| stem_of(file) == stem).collect();
-    let mut images = images.into_iter();
-    match (images.next(), images.next()) {
-        (Some(image), None) => Ok(Some((image.to_owned(), known_objects(session, marks.objects, &place, output)))),
-        (Some(one), Some(other)) => Err(problem(
-            "ambiguous_marks",
-            place,
-            format!("two images have this name: {one} and {other}"),
-            "rename one of them on the card's copy, and its marks",
-        )),
-        (None, _) => Err(problem(
+    let stem = stem_of(&path.to_string_lossy());
+    match images.get(&stem).map(Vec::as_slice) {
+        None | Some([]) => Err(problem(
             "marks_without_image",
             place,
             format!("the card has no image named {stem}"),
             "give the file the image's name, or remove it",
         )),
+        Some([Image { file, dropped: None }]) => {
+            Ok(Some(((*file).to_owned(), known_objects(session, marks.objects, &place, output))))
+        }
+        Some([Image { dropped: Some(reason), .. }]) => {
+            let fact = format!("its image was dropped: {}", reason.meaning());
+            let remedy = "see the problem of the image itself";
+            output.status.problems.push(problem("marked_image_dropped", place, fact, remedy));
+            Ok(None)
+        }
+        Some(several) => {
+            let files: Vec<_> = several.iter().map(|image| image.file).collect();
+            let fact = format!("several images have this name: {}", files.join(", "));
+            Err(problem("ambiguous_marks", place, fact, "rename all but one in the copy of the card, and its marks"))
+        }
     }
+}
+
+/// An image of the card, used or dropped.
+struct Image<'a> {
+    file: &'a str,
+    dropped: Option<FrameReason>,
+}
+
+type ImagesByStem<'a> = BTreeMap<String, Vec<Image<'a>>>;
+
+fn images_by_stem<'a>(session: &'a Session<'_>) -> ImagesByStem<'a> {
+    let used = session.frames.iter().map(|frame| Image { file: &frame.image.file, dropped: None });
+    let dropped = session.dropped.iter().map(|image| Image { file: &image.file, dropped: Some(image.reason) });
+    let mut images = ImagesByStem::new();
+    for image in used.chain(dropped) {
+        images.entry(stem_of(image.file)).or_default().push(image);
+    }
+    images
 }
 
 fn known_objects(

@@ -56,6 +56,13 @@ struct Session<'a> {
     dropped: Vec<DroppedImage>,
 }
 
+impl Session<'_> {
+    /// Where a file of the card is, relative to the study.
+    fn place_of(&self, file: &str) -> String {
+        format!("cards/{}/{file}", self.dir.name)
+    }
+}
+
 /// Runs one session. Whatever goes wrong is in the status; what could be used is in the rows.
 pub fn run_session(
     study: &Study,
@@ -68,6 +75,9 @@ pub fn run_session(
     if let Err(problem) = fill(study, dir, options, reporter, &mut output) {
         output.status.failed = true;
         output.status.problems.push(problem);
+    }
+    for problem in &mut output.status.problems {
+        problem.fact = without_host(&problem.fact, study, &options.mcap_dir);
     }
     for problem in &output.status.problems {
         tracing::warn!(session = dir.name, stage = %problem.stage, code = problem.code, place = problem.place, "{}", problem.fact);
@@ -83,6 +93,9 @@ fn fill(
     output: &mut SessionOutput,
 ) -> Result<(), Problem> {
     let card = dir.card.as_deref().ok_or_else(|| missing_card(dir))?;
+    if !study.holds(card) {
+        return Err(link_out_of_study(dir));
+    }
     let spec = session_spec(study, card, output)?;
     let (camera_spec, camera) = study.camera_of_session(&spec).map_err(|error| Problem {
         stage: Stage::Study,
@@ -115,9 +128,48 @@ fn fill(
     output.frames = rows::ledger(&session, &marks, &output.results);
     output.status.images = output.frames.len();
     output.status.with_pose = session.frames.iter().filter(|f| f.signals.pose.is_some()).count();
+    output.status.problems.extend(no_pose(&session));
     output.status.selected = output.frames.iter().filter(|f| f.reason == model::FrameReason::Selected).count();
     output.status.sizes = output.results.iter().filter(|row| row.predicted_mm.is_some()).count();
     Ok(())
+}
+
+/// A card none of whose images has a pose: a dead sensor, or a profile that does not fit.
+fn no_pose(session: &Session<'_>) -> Option<Problem> {
+    let reason = session.frames.first()?.signals.reason;
+    session.frames.iter().all(|frame| frame.signals.pose.is_none()).then(|| Problem {
+        stage: Stage::Signals,
+        code: "no_image_with_pose".to_owned(),
+        place: format!("cards/{}", session.dir.name),
+        fact: format!("none of its {} images has a pose; of the first: {}", session.frames.len(), reason.meaning()),
+        remedy: "check the sensors' files, and axes, scales and mount offset of the device profile".to_owned(),
+    })
+}
+
+/// Errors of files carry whole paths; what goes into the results must not depend on where the study lies.
+fn without_host(fact: &str, study: &Study, mcap_dir: &Path) -> String {
+    let mut fact = fact.to_owned();
+    for (folder, name) in [(study.dir.as_path(), ""), (mcap_dir, "mcap/")] {
+        let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+        for folder in [whole.as_path(), folder] {
+            let prefix = format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR);
+            fact = fact.replace(&prefix, name);
+        }
+    }
+    fact
+}
+
+/// What is wrong with a link that leaves the study.
+const LINK_FACT: &str = "this is a link to a place outside the study";
+
+fn link_out_of_study(dir: &SessionDir) -> Problem {
+    Problem {
+        stage: Stage::Ingest,
+        code: "link_out_of_study".to_owned(),
+        place: format!("cards/{}", dir.name),
+        fact: LINK_FACT.to_owned(),
+        remedy: "copy the card into the study, or put the whole study where the cards are".to_owned(),
+    }
 }
 
 fn missing_card(dir: &SessionDir) -> Problem {
@@ -183,7 +235,7 @@ fn read_frames(study: &Study, mcap: &Path, name: &str) -> Result<(SessionMetadat
     let refuse = |error: ingest::ReadError| Problem {
         stage: Stage::Signals,
         code: "bad_mcap".to_owned(),
-        place: name.to_owned(),
+        place: format!("mcap/{name}.mcap"),
         fact: error.to_string(),
         remedy: "run again with --force to ingest the card anew".to_owned(),
     };

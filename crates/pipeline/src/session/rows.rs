@@ -1,6 +1,6 @@
 //! Rows of the results (level frame) and of the ledger.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use model::results::RESULTS_SCHEMA_VERSION;
 use model::{
@@ -22,13 +22,13 @@ struct Marked<'a> {
     marks: &'a ObjectMarks,
 }
 
-/// Sizes of everything that is marked on frames with a pose: by time, rater, object, method, quantity.
+/// Sizes of everything that is marked on frames with a pose, in the order that docs/results.md gives.
 pub(super) fn measure_all(session: &Session<'_>, marks: &SessionMarks, problems: &mut Vec<Problem>) -> Vec<ResultRow> {
     let mut rows = Vec::new();
     for frame in &session.frames {
         for (rater, objects) in marks.of_image(&frame.image.file) {
             let Some(pose) = frame.signals.pose else {
-                problems.push(unusable(frame, rater));
+                problems.push(unusable(session, frame, rater));
                 continue;
             };
             for marks in objects {
@@ -38,14 +38,20 @@ pub(super) fn measure_all(session: &Session<'_>, marks: &SessionMarks, problems:
             }
         }
     }
+    rows.sort_by(|a, b| order(a).cmp(&order(b)));
     rows
 }
 
-fn unusable(frame: &Frame, rater: &str) -> Problem {
+/// What the rows of one session are ordered by.
+fn order(row: &ResultRow) -> impl Ord + '_ {
+    (row.time_utc, &row.image, &row.object, &row.rater, row.quantity, row.method)
+}
+
+fn unusable(session: &Session<'_>, frame: &Frame, rater: &str) -> Problem {
     Problem {
         stage: Stage::Signals,
         code: "marked_image_without_pose".to_owned(),
-        place: frame.image.file.clone(),
+        place: session.place_of(&frame.image.file),
         fact: format!("marked by {rater}, but {}", frame.signals.reason.meaning()),
         remedy: "mark another image of the same object, or see frames.parquet for the numbers behind it".to_owned(),
     }
@@ -53,7 +59,7 @@ fn unusable(frame: &Frame, rater: &str) -> Problem {
 
 fn measure_one(marked: &Marked<'_>, problems: &mut Vec<Problem>) -> Vec<ResultRow> {
     let study = marked.session.study;
-    let camera = study.marks_camera.unwrap_or(marked.session.camera);
+    let camera = study.marks_camera.as_ref().map_or(marked.session.camera, |(_, camera)| *camera);
     let view = View::new(camera, marked.pose);
     let inputs = study.spec.uncertainty.inputs();
     let mut rows = Vec::new();
@@ -78,7 +84,7 @@ fn unmeasured(marked: &Marked<'_>, quantity: Quantity, error: &MeasureError) -> 
     Problem {
         stage: Stage::Measure,
         code: error.code().to_owned(),
-        place: marked.frame.image.file.clone(),
+        place: marked.session.place_of(&marked.frame.image.file),
         fact: format!("{quantity} of '{}' marked by {}: {error}", marked.marks.object, marked.rater),
         remedy: "correct the marks in LabelMe and run again".to_owned(),
     }
@@ -89,7 +95,7 @@ fn nothing(marked: &Marked<'_>) -> Problem {
     Problem {
         stage: Stage::Measure,
         code: "nothing_to_measure".to_owned(),
-        place: marked.frame.image.file.clone(),
+        place: marked.session.place_of(&marked.frame.image.file),
         fact: format!("the marks of '{}' by {} give no size of a {shape}", marked.marks.object, marked.rater),
         remedy: "mark a diameter, width, length, height or the rim (docs/study.md)".to_owned(),
     }
@@ -148,10 +154,10 @@ pub(super) fn error_pct(predicted_mm: Option<f64>, truth_mm: Option<f64>) -> Opt
 
 /// One row for every image of the session: those with data by time, then the dropped ones by file.
 pub(super) fn ledger(session: &Session<'_>, marks: &SessionMarks, results: &[ResultRow]) -> Vec<FrameRow> {
-    let sizes_on = |file: &str| {
-        let on_it = |row: &&ResultRow| row.image.as_deref() == Some(file) && row.predicted_mm.is_some();
-        count(results.iter().filter(on_it).count())
-    };
+    let mut sizes: BTreeMap<&str, u32> = BTreeMap::new();
+    for file in results.iter().filter(|row| row.predicted_mm.is_some()).filter_map(|row| row.image.as_deref()) {
+        *sizes.entry(file).or_default() += 1;
+    }
     let with_data = session.frames.iter().map(|frame| FrameRow {
         time_utc: Some(frame.image.time),
         reason: frame.signals.reason,
@@ -166,7 +172,7 @@ pub(super) fn ledger(session: &Session<'_>, marks: &SessionMarks, results: &[Res
         range_spread_mm: frame.signals.range_spread_mm,
         range_samples: frame.signals.range_samples,
         raters: count(marks.of_image(&frame.image.file).count()),
-        sizes: sizes_on(&frame.image.file),
+        sizes: sizes.get(frame.image.file.as_str()).copied().unwrap_or_default(),
         ..empty_row(session, &frame.image.file, frame.signals.reason)
     });
     let dropped = session.dropped.iter().map(|image| FrameRow {

@@ -22,8 +22,11 @@ pub(super) struct Gravity {
 const MIN_CENTRAL_SAMPLES: usize = 5;
 /// The kernel is cut off at this many of its SDs (weight 0.011).
 const KERNEL_REACH_SD: f64 = 3.0;
-/// Huber's constant: 95 % efficiency on Gaussian noise (Huber 1981).
-const HUBER: f64 = 1.345;
+/// Residuals longer than this many SDs (of one axis) count less: Huber's weights (Huber 1981), with a knee that lets
+/// three-dimensional Gaussian noise pass (longer than this: 6 in 1000).
+const HUBER_SD: f64 = 3.5;
+/// Median length of a three-dimensional Gaussian residual, in SDs of one axis.
+const MEDIAN_LENGTH_SD: f64 = 1.538;
 /// Rounds of reweighting; the weights settle to well under the sensor's 1 mg in three.
 const ROUNDS: usize = 4;
 
@@ -51,7 +54,7 @@ pub(super) fn at(time: UtcNs, samples: &[(UtcNs, Vector3<f64>)], cutoff_hz: f64)
     let mut mean = weighted_mean(samples, &weights);
     for _ in 0..ROUNDS {
         let lengths: Vec<f64> = samples.iter().map(|(_, a)| (a - mean).norm()).collect();
-        let limit = HUBER * median(lengths.clone());
+        let limit = HUBER_SD * median(lengths.clone()) / MEDIAN_LENGTH_SD;
         for ((weight, kernel), length) in weights.iter_mut().zip(&kernel).zip(&lengths) {
             *weight = if *length > limit { kernel * limit / length } else { *kernel };
         }

@@ -17,13 +17,16 @@ pub(super) struct Range {
 const NO_TARGET_MM: [f64; 2] = [8190.0, 8191.0];
 /// Fewer valid readings than this in the window give no range.
 const MIN_VALID: usize = 3;
+/// Nor does a window in which fewer than one in this many readings are valid: a few echoes among 'no target' (a reading
+/// is held over several records) are not the table.
+const MIN_VALID_ONE_IN: usize = 3;
 
 /// Median of the readings that are ranges: between the limits, and no code.
 pub(super) fn of(samples: &[(UtcNs, f64)], min_mm: f64, max_mm: f64) -> Range {
     let is_range = |mm: &f64| *mm >= min_mm && *mm <= max_mm && !NO_TARGET_MM.contains(mm);
     let valid: Vec<f64> = samples.iter().map(|(_, mm)| *mm).filter(is_range).collect();
     let valid_samples = u32::try_from(valid.len()).unwrap_or(u32::MAX);
-    if valid.len() < MIN_VALID {
+    if valid.len() < MIN_VALID || valid.len() * MIN_VALID_ONE_IN < samples.len() {
         return Range { median_mm: None, spread_mm: None, valid_samples };
     }
     let center_mm = median(valid.clone());
@@ -58,6 +61,14 @@ mod tests {
     fn a_code_is_refused_even_where_the_limits_would_allow_it() {
         let samples = [(UtcNs(0), 8190.0); 10];
         assert_eq!(of(&samples, 30.0, 9000.0).median_mm, None);
+    }
+
+    #[test]
+    fn a_stray_echo_among_codes_is_no_range() {
+        let mut readings = vec![8190.0; 120];
+        readings.extend([123.0; 8]);
+        assert_eq!(of_readings(&readings).median_mm, None);
+        assert_eq!(of_readings(&readings).valid_samples, 8);
     }
 
     #[test]

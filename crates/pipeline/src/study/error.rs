@@ -101,14 +101,12 @@ impl StudySpec {
         let not_negative = "zero or a positive number";
         let (signals, select, sigma) = (&self.signals, &self.select, &self.uncertainty);
         for (key, got, least, expected) in [
-            ("signals.gravity_cutoff_hz", signals.gravity_cutoff_hz, f64::MIN_POSITIVE, positive),
             ("signals.gravity_tolerance_mg", signals.gravity_tolerance_mg, f64::MIN_POSITIVE, positive),
             ("signals.stillness_max_mg", signals.stillness_max_mg, f64::MIN_POSITIVE, positive),
-            ("signals.range_window_s", signals.range_window_s, f64::MIN_POSITIVE, positive),
             ("signals.range_min_mm", signals.range_min_mm, 0.0, not_negative),
             ("select.pitch_tolerance_deg", select.pitch_tolerance_deg, 0.0, not_negative),
             ("uncertainty.pitch_deg", sigma.pitch_deg, 0.0, not_negative),
-            ("uncertainty.roll_deg", sigma.roll_deg, 0.0, not_negative),
+            ("uncertainty.tilt_deg", sigma.tilt_deg, 0.0, not_negative),
             ("uncertainty.range_pct", sigma.range_pct, 0.0, not_negative),
             ("uncertainty.mark_px", sigma.mark_px, 0.0, not_negative),
             ("uncertainty.focal_pct", sigma.focal_pct, 0.0, not_negative),
@@ -140,14 +138,22 @@ impl StudySpec {
         if self.measure.methods.is_empty() {
             return refuse("measure.methods", "[]", "at least one of paper, ray");
         }
+        let methods = &self.measure.methods;
+        if let Some((_, twice)) = methods.iter().enumerate().find(|(i, method)| methods[..*i].contains(method)) {
+            return refuse("measure.methods", twice.code(), "each method once"); // else every frame would count twice
+        }
         for (i, table) in self.tables.iter().enumerate() {
             let is_file_name =
-                !table.id.is_empty() && table.id.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+                !table.id.is_empty() && table.id.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c));
             if !is_file_name {
-                return refuse("tables.id", &table.id, "letters, digits, '-' and '_' (it becomes a file name)");
+                return refuse("tables.id", &table.id, "letters, digits, '-', '_' and '.' (it becomes a file name)");
             }
-            if self.tables[..i].iter().any(|other| other.id == table.id) {
-                return refuse("tables.id", &table.id, "an id of its own for each table");
+            if self.tables[..i].iter().any(|other| other.id.eq_ignore_ascii_case(&table.id)) {
+                return refuse(
+                    "tables.id",
+                    &table.id,
+                    "an id of its own for each table (upper and lower case are one)",
+                );
             }
             if table.quantities.is_empty() {
                 return refuse("tables.quantities", "[]", "at least one quantity");

@@ -34,7 +34,7 @@ pub struct Study {
     /// The study's camera.
     pub camera_spec: CameraSpec,
     /// Camera of the pictures that people marked, where it is another.
-    pub marks_camera: Option<Camera>,
+    pub marks_camera: Option<(CameraSpec, Camera)>,
     /// Tables, with printed numbers.
     pub tables: Vec<TableSpec>,
     /// Time zone.
@@ -63,7 +63,7 @@ impl Study {
             objects: objects::read_objects(&dir.join("objects.csv"))?,
             profile: Profile::load(&spec.device_profile, &devices)?,
             camera_spec: ingest::camera::load(&spec.camera, &devices)?,
-            marks_camera: marks_camera.map(|(_, camera)| camera),
+            marks_camera,
             tables: spec.tables.iter().map(|entry| printed::resolve(entry, dir)).collect::<Result<_, _>>()?,
             time_zone,
             sessions: sessions::find(dir)?,
@@ -83,6 +83,15 @@ impl Study {
         match &session.camera {
             Some(name) => load_camera(name, &self.dir.join("devices")),
             None => Ok((self.camera_spec.clone(), camera_of(&self.spec.camera, &self.camera_spec)?)),
+        }
+    }
+
+    /// Whether `path` lies in the study, links followed.
+    #[must_use]
+    pub fn holds(&self, path: &Path) -> bool {
+        match (self.dir.canonicalize(), path.canonicalize()) {
+            (Ok(study), Ok(path)) => path.starts_with(study),
+            _ => false,
         }
     }
 

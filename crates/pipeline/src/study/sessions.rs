@@ -63,7 +63,8 @@ fn folders(dir: &Path) -> Result<Vec<(String, PathBuf)>, StudyError> {
     for entry in std::fs::read_dir(dir).map_err(refuse)? {
         let entry = entry.map_err(refuse)?;
         let name = entry.file_name().to_string_lossy().into_owned();
-        if entry.file_type().map_err(refuse)?.is_dir() && !name.starts_with('.') {
+        // Links are followed here, so that a linked card is told of when it leaves the study, and not passed over.
+        if std::fs::metadata(entry.path()).is_ok_and(|metadata| metadata.is_dir()) && !name.starts_with('.') {
             found.push((name, entry.path()));
         }
     }

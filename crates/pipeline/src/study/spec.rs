@@ -17,7 +17,7 @@ pub struct StudySpec {
     /// A sentence that every report made from this study carries.
     #[serde(default)]
     pub statement: Option<String>,
-    /// IANA time zone, for image times that name no zone, and for display.
+    /// IANA time zone, for image times that name none.
     #[serde(default = "utc")]
     pub time_zone: String,
     /// Device profile: built in, or devices/NAME.toml.
@@ -134,8 +134,8 @@ impl Default for MeasureSpec {
 pub struct UncertaintySpec {
     /// Pitch: 17 mg of zero-g offset (ADXL362 data sheet: tens of mg) are 1 degree.
     pub pitch_deg: f64,
-    /// Roll, likewise.
-    pub roll_deg: f64,
+    /// Sideways tilt, likewise; the roll is uncertain by this over cos(pitch).
+    pub tilt_deg: f64,
     /// Range, in per cent (VL53L0X data sheet: about 3 % uncalibrated).
     pub range_pct: f64,
     /// One coordinate of a mark set by hand.
@@ -148,7 +148,7 @@ pub struct UncertaintySpec {
 
 impl Default for UncertaintySpec {
     fn default() -> Self {
-        Self { pitch_deg: 1.0, roll_deg: 1.0, range_pct: 3.0, mark_px: 2.0, focal_pct: 0.5, principal_px: 5.0 }
+        Self { pitch_deg: 1.0, tilt_deg: 1.0, range_pct: 3.0, mark_px: 2.0, focal_pct: 0.5, principal_px: 5.0 }
     }
 }
 
@@ -158,7 +158,7 @@ impl UncertaintySpec {
     pub fn inputs(&self) -> InputSigma {
         InputSigma {
             pitch_rad: self.pitch_deg.to_radians(),
-            roll_rad: self.roll_deg.to_radians(),
+            tilt_rad: self.tilt_deg.to_radians(),
             range_relative: self.range_pct / 100.0,
             mark_px: self.mark_px,
             focal_relative: self.focal_pct / 100.0,

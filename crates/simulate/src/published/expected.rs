@@ -11,6 +11,11 @@ use crate::study::StudyFolder;
 /// Tolerance, in percentage points, of the summary rows of heights: they rest on sizes printed to 0.01 cm, of which that
 /// is 0.3 %.
 const HEIGHTS_TOLERANCE_PCT: f64 = 0.3;
+/// The same of the overall rows of the other tables.
+const OVERALL_TOLERANCE_PCT: f64 = 0.05;
+/// Tolerances of a single size: of its error, in percentage points, and of the size itself.
+const ROW_TOLERANCE_PCT: f64 = 0.15;
+const ROW_TOLERANCE_CM: f64 = 0.02;
 
 /// A row of `expected/table_II.csv` to `table_IV.csv`. An empty tolerance leaves it to the command line.
 #[derive(Debug, Clone, Serialize)]
@@ -68,6 +73,11 @@ fn error_pct(predicted_cm: f64, original_cm: f64) -> f64 {
     100.0 * (predicted_cm - original_cm) / original_cm
 }
 
+/// Tolerance of a row with sizes up to `largest_cm`, in per cent (of a size) and percentage points (of its error).
+fn row_tolerance_pct(largest_cm: f64) -> Option<f64> {
+    Some(rounded((100.0 * ROW_TOLERANCE_CM / largest_cm).min(ROW_TOLERANCE_PCT)))
+}
+
 /// To four decimals: far finer than any tolerance, and free of the last bit's noise.
 fn rounded(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
@@ -90,12 +100,12 @@ fn setup_rows(table: &Table<SetupRow>, tolerance_pct: Option<f64>) -> Vec<SetupE
             original_cm: Some(row.original_cm),
             error_pct: rounded(error_pct(row.predicted_cm, row.original_cm)),
             sd_pct: None,
-            tolerance_pct: None,
+            tolerance_pct: row_tolerance_pct(row.predicted_cm),
         }));
         expected.extend(setup_summary("object_mean", Some(object), &errors(&rows), tolerance_pct));
     }
     let all: Vec<_> = table.rows.iter().collect();
-    expected.extend(setup_summary("overall", None, &errors(&all), tolerance_pct));
+    expected.extend(setup_summary("overall", None, &errors(&all), tolerance_pct.or(Some(OVERALL_TOLERANCE_PCT))));
     expected
 }
 

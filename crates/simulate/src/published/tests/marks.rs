@@ -70,7 +70,8 @@ fn worn_marks_give_each_raters_values_within_the_target_window_only() {
                 let folder = root.join(format!("marks/{rater}/{}", session.name));
                 for (file, head) in files_below(&folder).iter().zip(&heads) {
                     let sizes = sizes_of(&folder.join(file), head.pitch_deg, head.range_mm);
-                    let factor = if (47.5..=62.5).contains(&head.pitch_deg) { 1.0 } else { worn::OUTSIDE_WINDOW_FACTOR };
+                    let factor =
+                        if (47.5..=62.5).contains(&head.pitch_deg) { 1.0 } else { worn::OUTSIDE_WINDOW_FACTOR };
                     assert_size(&sizes, &row.object, row.quantity, predicted_cm * factor);
                 }
             }
