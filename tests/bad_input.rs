@@ -85,7 +85,10 @@ fn missing_card() {
 fn empty_card() {
     let study = study();
     std::fs::create_dir_all(study.path().join("cards/empty")).unwrap();
-    assert_told_and_rest_complete(&study, &["empty [ingest] card_does_not_fit_profile", "profile 'csv'"]);
+    assert_told_and_rest_complete(
+        &study,
+        &["empty (session lost) [ingest] card_does_not_fit_profile", "profile 'csv'"],
+    );
 }
 
 #[test]

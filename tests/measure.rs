@@ -133,6 +133,15 @@ fn what_cannot_be_measured_is_told_and_the_rest_is_measured() {
     told(vec![good, twisted], "--kind=bowl", 1, "towards the wearer");
 }
 
+#[test]
+fn marks_outside_the_picture_are_measured_with_a_warning() {
+    let scene = Scene::new();
+    let wide = line("p/diameter", [[-200.0, 480.0], [640.0, 480.0]]);
+    let output = scene.measure(vec![wide], &["--kind=plate"]);
+    assert_exit(&output, 0);
+    assert!(stderr(&output).contains("marks of 'p' lie outside the picture"), "{}", stderr(&output));
+}
+
 /// tan(pitch) has no bound: the paper's height must not reach the camera.
 #[test]
 fn a_height_above_the_camera_is_refused() {
@@ -193,5 +202,9 @@ fn one_card_to_one_mcap_file() {
 
     let nowhere = run(["ingest", "nowhere", "--out", out.to_str().unwrap()]);
     assert_exit(&nowhere, 1);
-    assert!(stderr(&nowhere).contains("nowhere") && stderr(&nowhere).contains("copy the card"), "{}", stderr(&nowhere));
+    assert!(
+        stderr(&nowhere).contains("nowhere") && stderr(&nowhere).contains("copy the SD card"),
+        "{}",
+        stderr(&nowhere)
+    );
 }

@@ -18,14 +18,14 @@ pub struct Args {
     /// What to do
     #[command(subcommand)]
     pub command: Command,
-    /// Say more: -v information, -vv debugging
-    #[arg(short, long, action = clap::ArgAction::Count, global = true)]
+    /// Say more: -v every problem and what each session does, -vv debugging
+    #[arg(short, long, action = clap::ArgAction::Count, global = true, help_heading = "Messages")]
     pub verbose: u8,
     /// Form of the log on stderr
-    #[arg(long, value_enum, default_value_t = LogFormat::Text, global = true, env = "AIM_BATCH_LOG_FORMAT")]
+    #[arg(long, value_enum, default_value_t = LogFormat::Text, global = true, env = "AIM_BATCH_LOG_FORMAT", help_heading = "Messages")]
     pub log_format: LogFormat,
     /// No progress bars
-    #[arg(short, long, global = true)]
+    #[arg(short, long, global = true, help_heading = "Messages")]
     pub quiet: bool,
 }
 
@@ -33,6 +33,7 @@ pub struct Args {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// The main job: ingest what is new, select, measure, write results, print tables
+    #[command(allow_negative_numbers = true)]
     Run(RunArgs),
     /// One SD card to one MCAP file
     Ingest(IngestArgs),
@@ -53,10 +54,11 @@ pub enum Command {
 pub struct RunArgs {
     /// Folder of the study (docs/study.md)
     pub study: PathBuf,
-    /// File for the sizes; frames.parquet is written beside it
+    /// File for the sizes, X.parquet; the ledger of images is written beside it as X.frames.parquet (frames.parquet for
+    /// results.parquet)
     #[arg(short, long, env = "AIM_BATCH_OUT", default_value = "results.parquet")]
     pub out: PathBuf,
-    /// Folder for what can be made anew (MCAP files); default: beside the output
+    /// Folder for what can be made anew (one MCAP file per session), and may be deleted; default: X.work beside the output
     #[arg(long, env = "AIM_BATCH_WORK")]
     pub work: Option<PathBuf>,
     /// Sessions at a time; default: the cores that this process may use
@@ -68,7 +70,7 @@ pub struct RunArgs {
     /// Also write the tables to this folder (CSV, Markdown, LaTeX)
     #[arg(long, env = "AIM_BATCH_REPORT")]
     pub report: Option<PathBuf>,
-    /// Methods, separated by commas; default: those of study.toml
+    /// Methods (paper, ray), separated by commas; default: those of study.toml
     #[arg(long, env = "AIM_BATCH_METHOD", value_delimiter = ',')]
     pub method: Vec<Method>,
     /// Pitch near which frames are selected, in degrees; default: study.toml's
@@ -120,7 +122,7 @@ pub struct ReportArgs {
 /// Where the camera is, for `project` and `measure`.
 #[derive(Debug, clap::Args)]
 pub struct PoseArgs {
-    /// Camera file (docs/devices.md)
+    /// Camera file (docs/devices.md), or a built-in camera (aim2-raw, aim2-corrected)
     #[arg(long, value_name = "CAM.toml")]
     pub camera: PathBuf,
     /// Depression of the optical axis below the horizontal, in degrees

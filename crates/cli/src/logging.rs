@@ -3,8 +3,11 @@
 use std::io::{self, Write};
 
 use clap::ValueEnum;
-use tracing_subscriber::filter::LevelFilter;
+use tracing_subscriber::Layer;
+use tracing_subscriber::filter::{LevelFilter, Targets};
 use tracing_subscriber::fmt::MakeWriter;
+use tracing_subscriber::layer::SubscriberExt;
+use tracing_subscriber::util::SubscriberInitExt;
 
 use crate::progress::Bars;
 
@@ -17,20 +20,26 @@ pub enum LogFormat {
     Json,
 }
 
-/// Starts logging: errors, with `-v` also warnings and information, with `-vv` debugging. As JSON, warnings always.
+/// Starts logging: errors, with `-v` also warnings and information, with `-vv` debugging. As JSON, information
+/// always.
 ///
 /// The problems of sessions are warnings: `run` lists them at its end, for people, and the log has them for programs.
 pub fn start(verbose: u8, format: LogFormat, bars: &Bars) {
     let level = match (verbose, format) {
         (0, LogFormat::Text) => LevelFilter::ERROR,
-        (0, LogFormat::Json) => LevelFilter::WARN,
-        (1, _) => LevelFilter::INFO,
+        (0, LogFormat::Json) | (1, _) => LevelFilter::INFO,
         _ => LevelFilter::DEBUG,
     };
-    let builder = tracing_subscriber::fmt().with_max_level(level).with_writer(AboveBars(bars.clone()));
+    // Other libraries' events are of use to nobody who measures plates.
+    let ours = Targets::new().with_target("aim_batch", level).with_default(LevelFilter::ERROR);
+    let lines = tracing_subscriber::fmt::layer().with_writer(AboveBars(bars.clone()));
+    let registry = tracing_subscriber::registry();
     match format {
-        LogFormat::Text => builder.with_ansi(io::IsTerminal::is_terminal(&io::stderr())).init(),
-        LogFormat::Json => builder.json().init(),
+        LogFormat::Text => {
+            let ansi = io::IsTerminal::is_terminal(&io::stderr());
+            registry.with(lines.without_time().with_target(false).with_ansi(ansi).with_filter(ours)).init();
+        }
+        LogFormat::Json => registry.with(lines.json().with_filter(ours)).init(),
     }
 }
 

@@ -21,7 +21,7 @@ fn main() -> ExitCode {
     let bars = progress::Bars::new(args.quiet);
     logging::start(args.verbose, args.log_format, &bars);
     let outcome = match &args.command {
-        Command::Run(run) => commands::run::run(run, &bars),
+        Command::Run(run) => commands::run::run(run, args.log_format, &bars),
         Command::Ingest(ingest) => commands::ingest::run(ingest, &bars),
         Command::Report(report) => commands::report::run(report),
         Command::Project(project) => commands::project::run(project),

@@ -32,6 +32,17 @@ pub enum Mark {
     },
 }
 
+impl Mark {
+    /// Its points.
+    #[must_use]
+    pub fn points_px(&self) -> &[Point2<f64>] {
+        match self {
+            Self::Line { ends_px, .. } => ends_px,
+            Self::Outline { points_px, .. } => points_px,
+        }
+    }
+}
+
 /// The marks of one object on one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ObjectMarks {
@@ -39,4 +50,16 @@ pub struct ObjectMarks {
     pub object: String,
     /// Its marks, in file order.
     pub marks: Vec<Mark>,
+}
+
+impl ObjectMarks {
+    /// Whether every point lies in a picture of this width and height. A fitted rim may run over the border; a point set
+    /// by hand may not.
+    #[must_use]
+    pub fn inside_picture(&self, [width, height]: [u32; 2]) -> bool {
+        let inside = |point: &Point2<f64>| {
+            (0.0..=f64::from(width)).contains(&point.x) && (0.0..=f64::from(height)).contains(&point.y)
+        };
+        self.marks.iter().flat_map(Mark::points_px).all(inside)
+    }
 }

@@ -19,8 +19,8 @@ pub struct Pose {
 pub enum PoseError {
     /// The optical axis never meets the table.
     #[error(
-        "pitch {pitch_deg:.2} degrees: the optical axis does not point below the horizon, so it never meets the table; \
-         expected a depression above 0 and at most 90 degrees"
+        "pitch {pitch_deg} degrees: expected a depression above 0 and at most 90 degrees (at 0 or less the optical axis \
+         never meets the table)"
     )]
     NotBelowHorizon {
         /// The pitch given.

@@ -137,6 +137,7 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, MarksError> {
 /// [`MarksError`] where nothing of the file can be used. A shape that is no mark is in [`Marks::refused`]; the others are
 /// kept.
 pub fn parse(bytes: &[u8], path: &Path, picture_px: [u32; 2]) -> Result<Marks, MarksError> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes); // a byte order mark, as some editors write
     let file: LabelMeFile =
         serde_json::from_slice(bytes).map_err(|source| MarksError::Malformed { path: path.to_owned(), source })?;
     let [width, height] = picture_px;
@@ -206,6 +207,11 @@ mod tests {
         assert_eq!(names, [("plate", 1), ("red bowl", 2)]);
         let Mark::Outline { feature: Feature::Rim, points_px } = &marks.objects[0].marks[0] else { panic!("a rim") };
         assert_eq!(points_px[2], Point2::new(5.0, 6.5));
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_fault() {
+        assert!(parse(b"\xef\xbb\xbf{\"shapes\": []}", Path::new("m.json"), [640, 480]).is_ok());
     }
 
     #[test]

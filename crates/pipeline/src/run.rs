@@ -69,7 +69,9 @@ pub fn run<S: ResultSink>(
     let mcap_dir = options.work_dir.join("mcap");
     std::fs::create_dir_all(&mcap_dir).map_err(|source| RunError::WorkDir { path: mcap_dir.clone(), source })?;
     let session_options = SessionOptions { mcap_dir, force: options.force, program: options.program.clone() };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.jobs.map_or(0, NonZeroUsize::get)).build()?;
+    let jobs = options.jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+    let threads = jobs.min(study.sessions.len()); // a thread without a session is of no use
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1)).build()?;
     reporter.begin(study.sessions.len());
     let outputs: Vec<SessionOutput> = pool.install(|| {
         let one = |dir| guarded(study, dir, &session_options, reporter);

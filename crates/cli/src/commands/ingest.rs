@@ -1,7 +1,7 @@
 //! `ingest`: one card to one MCAP file.
 
 use ::ingest::{Profile, SessionSource, camera, ingest_session};
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 
 use super::{PROGRAM, outcome, print, tell};
 use crate::args::IngestArgs;
@@ -21,14 +21,16 @@ pub fn run(args: &IngestArgs, bars: &Bars) -> Result<Outcome, Failure> {
             .map_err(Failure::Usage)?,
         program: PROGRAM.to_owned(),
     };
-    let summary = ingest_session(&source, &args.out, bars)?;
+    let summary = ingest_session(&source, &args.out, bars).map_err(|error| anyhow!("{error}; {}", error.remedy()))?;
     print(&format!(
-        "{}: {} images, {} acceleration samples, {} range samples from {} files\n",
+        "{}: {} images, {} acceleration samples, {} range samples from {} files (profile {}, camera {})\n",
         args.out.display(),
         summary.counts.images,
         summary.counts.acceleration,
         summary.counts.range,
         summary.files,
+        source.profile.name,
+        source.camera_spec.name,
     ))?;
     for image in &summary.dropped_images {
         tell(&format!("dropped {}: {} ({})\n", image.file, image.reason.meaning(), image.reason))?;

@@ -10,7 +10,7 @@ use pipeline::labelme;
 use pipeline::study::UncertaintySpec;
 use serde::Serialize;
 
-use super::{outcome, print, view};
+use super::{outcome, print, tell, view};
 use crate::args::MeasureArgs;
 use crate::exit::{Failure, Outcome};
 
@@ -49,6 +49,9 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome, Failure> {
     check_picture(args, view.camera().size_px())?;
     let bytes = labelme::read_bytes(&args.marks).map_err(Failure::usage)?;
     let marks = labelme::parse(&bytes, &args.marks, view.camera().size_px())?;
+    if marks.objects.is_empty() && marks.refused.is_empty() {
+        return Err(Failure::Failed(anyhow!("the file of marks has no shapes: {}", args.marks.display())));
+    }
     let shape = args.shape.unwrap_or(if args.kind == Kind::Box { Shape::Rectangle } else { Shape::Circle });
     let container = Container { kind: args.kind, shape, rim_height_mm: args.rim_height };
     let inputs = UncertaintySpec::default().inputs();
@@ -62,6 +65,9 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome, Failure> {
         })
         .collect();
     print(&if args.json { format!("{}\n", serde_json::to_string_pretty(&sizes)?) } else { text(&sizes, &inputs) })?;
+    for object in marks.objects.iter().filter(|object| !object.inside_picture(view.camera().size_px())) {
+        tell(&format!("warning: marks of '{}' lie outside the picture\n", object.object))?;
+    }
     let mut lost = !marks.refused.is_empty();
     for refused in &marks.refused {
         tracing::error!("{refused}");

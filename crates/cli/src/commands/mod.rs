@@ -6,6 +6,7 @@ pub mod project;
 pub mod report;
 pub mod run;
 pub mod simulate;
+mod summary;
 mod view;
 
 use std::io::{self, Write};
@@ -28,7 +29,7 @@ fn tell(text: &str) -> io::Result<()> {
     io::stderr().write_all(text.as_bytes())
 }
 
-/// The tables of a run, as text for the terminal: those that the study asks for, or the sizes if it asks for none.
+/// The tables of a run, as wide as the terminal, if stdout is one: those that the study asks for, or the sizes if it asks for none.
 fn tables_text(results: &::report::Results) -> String {
     let mut tables = ::report::tables(results);
     if tables.is_empty() {
@@ -36,7 +37,8 @@ fn tables_text(results: &::report::Results) -> String {
     }
     let by_band = [::report::error_by_pitch(results), ::report::error_by_height(results)];
     tables.extend(by_band.into_iter().filter(|table| !table.rows.is_empty()));
-    ::report::terminal_set(&tables, None)
+    let width = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
+    ::report::terminal_set(&tables, width)
 }
 
 /// The outcome of a command that may have lost something.

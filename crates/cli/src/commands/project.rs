@@ -2,16 +2,19 @@
 
 use std::io;
 
-use anyhow::anyhow;
+use anyhow::{Context, anyhow};
 use model::{View, ViewError};
 use nalgebra::{Point2, Point3};
 
-use super::{outcome, view};
+use super::{outcome, tell, view};
 use crate::args::ProjectArgs;
 use crate::exit::{Failure, Outcome};
 
 const PIXEL_COLUMNS: [&str; 2] = ["x", "y"];
 const WORLD_COLUMNS: [&str; 2] = ["world_x_mm", "world_y_mm"];
+
+/// More points without an answer than this are counted, not told one by one.
+const WARNINGS_TOLD: usize = 20;
 
 /// Projects every row of stdin.
 pub fn run(args: &ProjectArgs) -> Result<Outcome, Failure> {
@@ -21,7 +24,7 @@ pub fn run(args: &ProjectArgs) -> Result<Outcome, Failure> {
     let columns = columns_of(reader.headers().map_err(Failure::usage)?, from)?;
     let mut writer = csv::Writer::from_writer(io::stdout().lock());
     writer.write_record(from.iter().chain(&to))?;
-    let mut lost = false;
+    let mut lost = 0_usize;
     for record in reader.byte_records() {
         let record = record.map_err(Failure::usage)?;
         let line = record.position().map_or(0, csv::Position::line);
@@ -30,14 +33,19 @@ pub fn run(args: &ProjectArgs) -> Result<Outcome, Failure> {
         match project(args, &view, texts) {
             Ok([a, b]) => writer.write_record([texts[0], texts[1], &a.to_string(), &b.to_string()])?,
             Err(why) => {
-                lost = true;
-                tracing::error!(line, "no answer for ({}, {}): {why}", texts[0], texts[1]);
+                lost += 1;
+                if lost <= WARNINGS_TOLD {
+                    tell(&format!("warning: line {line}: no answer for ({}, {}): {why}\n", texts[0], texts[1]))?;
+                }
                 writer.write_record([texts[0], texts[1], "", ""])?;
             }
         }
     }
-    writer.flush()?;
-    Ok(outcome(lost))
+    writer.flush().context("cannot write to standard output")?;
+    if lost > WARNINGS_TOLD {
+        tell(&format!("warning: {} more points have no answer\n", lost - WARNINGS_TOLD))?;
+    }
+    Ok(outcome(lost > 0))
 }
 
 fn columns_of(headers: &csv::StringRecord, wanted: [&str; 2]) -> Result<[usize; 2], Failure> {

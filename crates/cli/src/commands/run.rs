@@ -1,25 +1,23 @@
 //! `run`: the main job.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
-use model::SessionStatus;
 use pipeline::study::StudySpec;
 use pipeline::{RunOptions, Study};
 
+use super::summary::tell_summary;
 use super::{PROGRAM, outcome, print, tables_text, tell};
 use crate::args::RunArgs;
 use crate::exit::{Failure, Outcome};
+use crate::logging::LogFormat;
 use crate::progress::Bars;
 
-/// More problems than this are counted, not listed; all are in the results file.
-const PROBLEMS_LISTED: usize = 20;
-
 /// Runs the study, prints the tables and what was lost.
-pub fn run(args: &RunArgs, bars: &Bars) -> Result<Outcome, Failure> {
+pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Failure> {
+    check(args)?;
     let study = Study::load(&args.study, |spec| apply(args, spec)).map_err(Failure::usage)?;
-    let frames = beside(&args.out, "frames.parquet");
+    let frames = frames_file(&args.out);
     let options = RunOptions {
         jobs: args.jobs,
         work_dir: args.work.clone().unwrap_or_else(|| args.out.with_extension("work")),
@@ -37,7 +35,7 @@ pub fn run(args: &RunArgs, bars: &Bars) -> Result<Outcome, Failure> {
     if let Some(dir) = &args.report {
         ::report::write_dir(&results, dir)?;
     }
-    tell(&summary(&sessions, &[&args.out, &frames]))?;
+    tell_summary(&sessions, &[&args.out, &frames], format)?;
     if let Some(dir) = &args.expect {
         let comparison = ::report::compare(dir, &results, args.tolerance).map_err(Failure::usage)?;
         tell(&format!("{comparison}\n"))?;
@@ -65,37 +63,27 @@ fn apply(args: &RunArgs, spec: &mut StudySpec) {
 }
 
 /// The second output: `frames.parquet` beside `results.parquet`, `X.frames.parquet` beside `X.parquet`.
-fn beside(results: &Path, name: &str) -> PathBuf {
+fn frames_file(results: &Path) -> PathBuf {
     match results.file_stem().map(|stem| stem.to_string_lossy()) {
-        Some(stem) if stem != "results" => results.with_file_name(format!("{stem}.{name}")),
-        _ => results.with_file_name(name),
+        Some(stem) if stem != "results" => results.with_file_name(format!("{stem}.frames.parquet")),
+        _ => results.with_file_name("frames.parquet"),
     }
 }
 
-fn summary(sessions: &[SessionStatus], files: &[&Path]) -> String {
-    let sum = |count: fn(&SessionStatus) -> usize| sessions.iter().map(count).sum::<usize>();
-    let mut text = format!(
-        "{} sessions ({} failed), {} images, {} with a pose, {} selected, {} sizes\n",
-        sessions.len(),
-        sum(|s| usize::from(s.failed)),
-        sum(|s| s.images),
-        sum(|s| s.with_pose),
-        sum(|s| s.selected),
-        sum(|s| s.sizes),
-    );
-    let problems: Vec<_> = sessions.iter().flat_map(|s| s.problems.iter().map(move |p| (s, p))).collect();
-    for (session, problem) in problems.iter().take(PROBLEMS_LISTED) {
-        let _ = writeln!(
-            text,
-            "{} [{}] {}: {}\n    {}\n    -> {}",
-            session.session, problem.stage, problem.code, problem.place, problem.fact, problem.remedy
-        );
+/// What would otherwise fail at the end of a night.
+fn check(args: &RunArgs) -> Result<(), Failure> {
+    let refuse = |fact: String| Err(Failure::Usage(anyhow!(fact)));
+    if args.out.extension().is_none_or(|extension| extension != "parquet") {
+        return refuse(format!("--out {}: expected a name that ends in .parquet", args.out.display()));
     }
-    if problems.len() > PROBLEMS_LISTED {
-        let _ = writeln!(text, "... and {} more problems", problems.len() - PROBLEMS_LISTED);
+    if !(args.tolerance.is_finite() && args.tolerance >= 0.0) {
+        return refuse(format!("--tolerance {}: expected zero or a positive number", args.tolerance));
     }
-    for file in files {
-        let _ = writeln!(text, "wrote {}", file.display());
+    if let Some(dir) = args.expect.as_deref().filter(|dir| !dir.is_dir()) {
+        return refuse(format!("--expect {}: no such folder", dir.display()));
     }
-    text
+    if let Some(dir) = args.report.as_deref().filter(|dir| dir.exists() && !dir.is_dir()) {
+        return refuse(format!("--report {}: there is a file of this name; expected a folder", dir.display()));
+    }
+    Ok(())
 }

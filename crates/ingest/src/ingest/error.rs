@@ -14,7 +14,7 @@ use crate::parse::PacketError;
 #[derive(Debug, thiserror::Error)]
 pub enum IngestError {
     /// There is no card, or it cannot be read.
-    #[error("session '{session}': no SD card in {card_dir}: {source}; copy the card into that folder")]
+    #[error("session '{session}': no SD card in {card_dir}: {source}")]
     NoCard {
         /// The session.
         session: String,
@@ -24,10 +24,7 @@ pub enum IngestError {
         source: std::io::Error,
     },
     /// No file of the card fits the profile.
-    #[error(
-        "session '{session}': none of the {files} files in {card_dir} fits profile '{profile}' ({patterns}); check the \
-         device profile, and that the card's own top folder was copied, not a folder around it"
-    )]
+    #[error("session '{session}': none of the {files} files in {card_dir} fits profile '{profile}' ({patterns})")]
     NothingFits {
         /// The session.
         session: String,

@@ -89,7 +89,13 @@ fn is_utc(pattern: &str) -> bool {
 /// [`TimeError`] when there is none, or its local time is none or two.
 pub fn from_exif(image: &[u8], zone: &TimeZone) -> Result<UtcNs, TimeError> {
     let wrong = |error: exif::Error| TimeError::Exif(error.to_string());
-    let exif = exif::Reader::new().read_from_container(&mut std::io::Cursor::new(image)).map_err(wrong)?;
+    // Some programs leave out pointers that the time does not need: what can be read is read.
+    let mut reader = exif::Reader::new();
+    let exif = reader
+        .continue_on_error(true)
+        .read_from_container(&mut std::io::Cursor::new(image))
+        .or_else(|error| error.distill_partial_result(|_| ()))
+        .map_err(wrong)?;
     let text = |tag| exif.get_field(tag, In::PRIMARY).and_then(ascii);
     let missing = || TimeError::Exif("there is no DateTimeOriginal".to_owned());
     let mut time = exif::DateTime::from_ascii(text(Tag::DateTimeOriginal).ok_or_else(missing)?).map_err(wrong)?;

@@ -115,7 +115,7 @@ schema! {
         selected: bool = "whether the image counts for fused rows: still, pitch within the target window; true for fused rows",
         frames: u32 = "number of images behind the row",
         spread_mm: Option<f64> = "sample SD between the images of a fused row; empty for fewer than two",
-        flags: String = "codes of what to know about the row, joined by commas; empty when there is nothing",
+        flags: String = "codes of what to know about the row, joined by commas: why the frame was not selected (docs/ledger.md), mark_outside_picture, or why there is no size; empty when there is nothing",
     }
 }
 

@@ -7,7 +7,7 @@ mod rows;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use ingest::{DroppedImage, ImageEntry, IngestProgress, SessionMetadata, SessionReader, SessionSource};
+use ingest::{DroppedImage, ImageEntry, IngestProgress, Ingested, SessionMetadata, SessionReader, SessionSource};
 use model::{Camera, FrameRow, Problem, ResultRow, SessionStatus, Stage};
 
 use crate::inputs::sha256_of_file;
@@ -80,7 +80,15 @@ pub fn run_session(
         problem.fact = without_host(&problem.fact, study, &options.mcap_dir);
     }
     for problem in &output.status.problems {
-        tracing::warn!(session = dir.name, stage = %problem.stage, code = problem.code, place = problem.place, "{}", problem.fact);
+        tracing::warn!(
+            session = dir.name,
+            stage = %problem.stage,
+            code = problem.code,
+            place = problem.place,
+            remedy = problem.remedy,
+            "{}",
+            problem.fact
+        );
     }
     output
 }
@@ -203,11 +211,15 @@ fn ingest_card(source: &SessionSource, options: &SessionOptions, reporter: &dyn 
     let mcap = options.mcap_dir.join(format!("{}.mcap", source.session));
     let progress = Progress { session: &source.session, reporter };
     let outcome = if options.force {
-        ingest::ingest_session(source, &mcap, &progress).map(|_| ())
+        ingest::ingest_session(source, &mcap, &progress).map(|summary| Ingested::Fresh(Box::new(summary)))
     } else {
-        ingest::ingest_if_changed(source, &mcap, &progress).map(|_| ())
+        ingest::ingest_if_changed(source, &mcap, &progress)
     };
-    outcome.map(|()| mcap).map_err(|error| Problem {
+    if let Ok(ingested) = &outcome {
+        let what = if matches!(ingested, Ingested::Current) { "unchanged, MCAP file kept" } else { "ingested" };
+        tracing::info!(session = source.session, "{what}");
+    }
+    outcome.map(|_| mcap).map_err(|error| Problem {
         stage: Stage::Ingest,
         code: error.code().to_owned(),
         place: format!("cards/{}", source.session),

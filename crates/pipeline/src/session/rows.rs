@@ -110,6 +110,8 @@ fn row(marked: &Marked<'_>, method: Method, quantity: Quantity, size: &Result<Es
     let selected = frame.signals.reason == FrameReason::Selected;
     let mut flags: Vec<&str> = Vec::new();
     flags.extend((!selected).then(|| frame.signals.reason.code()));
+    let camera = session.study.marks_camera.as_ref().map_or(&session.camera, |(_, camera)| camera);
+    flags.extend((!marks.inside_picture(camera.size_px())).then_some("mark_outside_picture"));
     flags.extend(size.as_ref().err().map(MeasureError::code));
     ResultRow {
         schema_version: RESULTS_SCHEMA_VERSION,

@@ -52,13 +52,13 @@ pub enum StudyError {
         /// Why it is refused.
         source: model::CameraSpecError,
     },
-    /// A CSV file that cannot be read.
-    #[error("{source}: {}", path.display())]
-    Csv {
+    /// A file that cannot be read.
+    #[error("cannot read the file: {source}: {}", path.display())]
+    Unreadable {
         /// The file.
         path: PathBuf,
         /// Why.
-        source: csv::Error,
+        source: std::io::Error,
     },
     /// A line of a CSV file.
     #[error("line {line}: {fact}: {}", path.display())]

@@ -41,8 +41,11 @@ pub(super) fn read_objects(path: &Path) -> Result<BTreeMap<String, Object>, Stud
     let mut objects = BTreeMap::new();
     for (line_number, line) in read_rows::<Line>(path)? {
         let refuse = |fact: String| StudyError::Line { path: path.to_owned(), line: line_number, fact };
-        if line.object.is_empty() || line.object.contains('/') {
-            return Err(refuse(format!("object '{}': expected a name without '/'", line.object)));
+        if line.object.is_empty() || line.object.contains(|c: char| c == '/' || c.is_control()) {
+            return Err(refuse(format!(
+                "object '{}': expected a name, without '/' and line breaks",
+                line.object.escape_debug()
+            )));
         }
         let sizes = [
             (Quantity::Diameter, line.true_diameter_mm),

@@ -101,7 +101,7 @@ fn line_row(line: &Line<'_>, raters: &[&str], notes: &mut Notes<'_>) -> NotedRow
     let group = &line.group;
     let mut texts = if group.is_first { notes.of_object(group.object) } else { Vec::new() };
     if group.rows.is_empty() {
-        texts.push("no fused size in the results".to_owned());
+        texts.push("no fused size by this method in the results: was any marked image selected?".to_owned());
     }
     texts.extend(raters.iter().filter_map(|rater| {
         let of_rater = group.rows.iter().copied().filter(|row| row.rater == *rater);

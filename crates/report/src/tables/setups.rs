@@ -118,7 +118,7 @@ fn is_printed_for(row: &PrintedRow, setup: Option<Setup>, rater: &str) -> bool {
 fn line_row(group: &Group<'_>, line: &Line<'_>, notes: &mut Notes<'_>) -> NotedRow {
     let mut texts = line.setup.map(|setup| notes.of_setup(group.object, setup)).unwrap_or_default();
     if line.rows.is_empty() {
-        texts.push("no frame of a bench setup in the results".to_owned());
+        texts.push("no size of a bench setup by this method in the results".to_owned());
     }
     texts.extend(not_measured(line.rows.iter().copied()));
     let measured = line.rows.iter().filter(|row| row.predicted_mm.is_some()).count();

@@ -118,7 +118,7 @@ fn a_printed_setup_without_frames_leaves_a_hole_that_shows() {
     let table = tables(&results).remove(0);
     assert_eq!((text(&table, 0, "object"), number(&table, 0, "printed_cm")), ("plate a", Some(17.1)));
     assert_eq!(number(&table, 0, "predicted_cm"), None);
-    assert!(text(&table, 0, "note").contains("no frame of a bench setup"));
+    assert!(text(&table, 0, "note").contains("no size of a bench setup by this method"));
 }
 
 #[test]
