@@ -67,7 +67,8 @@ pub fn run<S: ResultSink>(
     sink: &mut S,
 ) -> Result<Vec<SessionStatus>, RunError<S::Error>> {
     let mcap_dir = options.work_dir.join("mcap");
-    std::fs::create_dir_all(&mcap_dir).map_err(|source| RunError::WorkDir { path: mcap_dir.clone(), source })?;
+    let whole = std::fs::create_dir_all(&mcap_dir).and_then(|()| mcap_dir.canonicalize());
+    let mcap_dir = whole.map_err(|source| RunError::WorkDir { path: mcap_dir, source })?;
     let session_options = SessionOptions { mcap_dir, force: options.force, program: options.program.clone() };
     let jobs = options.jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
     let threads = jobs.min(study.sessions.len()); // a thread without a session is of no use

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use crate::container::{Kind, Method, Quantity, Shape};
 use crate::frame_log::FrameReason;
-use crate::results::row::Level;
+use crate::results::level::Level;
 use crate::time::UtcNs;
 
 /// Type of a column in the file.

@@ -5,8 +5,10 @@
 
 mod cell;
 mod dictionary;
+mod level;
 mod row;
 
 pub use cell::{Cell, CellError, ColumnType, Value};
 pub use dictionary::{dictionary_markdown, ledger_markdown};
-pub use row::{Column, FRAME_COLUMNS, FrameRow, Level, RESULT_COLUMNS, RESULTS_SCHEMA_VERSION, ResultRow, Row};
+pub use level::Level;
+pub use row::{Column, FRAME_COLUMNS, FrameRow, RESULT_COLUMNS, RESULTS_SCHEMA_VERSION, ResultRow, Row};

@@ -1,7 +1,7 @@
 //! The columns.
 
 use super::cell::{Cell, CellError, ColumnType, Value};
-use crate::codes::coded_enum;
+use super::level::Level;
 use crate::container::{Kind, Method, Quantity, Shape};
 use crate::frame_log::FrameReason;
 use crate::time::UtcNs;
@@ -9,14 +9,6 @@ use crate::time::UtcNs;
 /// Version of both schemas. It rises when a column is removed, renamed, or changes its type, unit or meaning; a new
 /// column at the end of a schema does not raise it.
 pub const RESULTS_SCHEMA_VERSION: u32 = 1;
-
-coded_enum! {
-    /// What a row of the results stands for.
-    Level {
-        Frame = "frame": "one image",
-        Fused = "fused": "the selected images of a session together",
-    }
-}
 
 /// One column of a schema.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

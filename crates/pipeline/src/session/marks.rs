@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use model::{FrameReason, ObjectMarks, Problem, Stage};
 
-use super::{LINK_FACT, Session, SessionOutput, relative};
+use super::problems::LINK_FACT;
+use super::{Session, SessionOutput, relative};
 use crate::inputs::sha256_of_bytes;
 use crate::labelme::{self, MarksError};
 

@@ -2,6 +2,7 @@
 
 mod fuse;
 mod marks;
+mod problems;
 mod rows;
 
 use std::collections::BTreeMap;
@@ -15,6 +16,7 @@ use crate::reporter::Reporter;
 use crate::signals::{self, FrameSignals, SignalSettings};
 use crate::study::{SessionDir, SessionSpec, Study};
 use marks::SessionMarks;
+use problems::{link_out_of_study, missing_card, no_pose, without_host};
 
 /// What one session gives.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -140,55 +142,6 @@ fn fill(
     output.status.selected = output.frames.iter().filter(|f| f.reason == model::FrameReason::Selected).count();
     output.status.sizes = output.results.iter().filter(|row| row.predicted_mm.is_some()).count();
     Ok(())
-}
-
-/// A card none of whose images has a pose: a dead sensor, or a profile that does not fit.
-fn no_pose(session: &Session<'_>) -> Option<Problem> {
-    let reason = session.frames.first()?.signals.reason;
-    session.frames.iter().all(|frame| frame.signals.pose.is_none()).then(|| Problem {
-        stage: Stage::Signals,
-        code: "no_image_with_pose".to_owned(),
-        place: format!("cards/{}", session.dir.name),
-        fact: format!("none of its {} images has a pose; of the first: {}", session.frames.len(), reason.meaning()),
-        remedy: "check the sensors' files, and axes, scales and mount offset of the device profile".to_owned(),
-    })
-}
-
-/// Errors of files carry whole paths; what goes into the results must not depend on where the study lies.
-fn without_host(fact: &str, study: &Study, mcap_dir: &Path) -> String {
-    let mut fact = fact.to_owned();
-    for (folder, name) in [(study.dir.as_path(), ""), (mcap_dir, "mcap/")] {
-        let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-        for folder in [whole.as_path(), folder] {
-            let prefix = format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR);
-            fact = fact.replace(&prefix, name);
-        }
-    }
-    fact
-}
-
-/// What is wrong with a link that leaves the study.
-const LINK_FACT: &str = "this is a link to a place outside the study";
-
-fn link_out_of_study(dir: &SessionDir) -> Problem {
-    Problem {
-        stage: Stage::Ingest,
-        code: "link_out_of_study".to_owned(),
-        place: format!("cards/{}", dir.name),
-        fact: LINK_FACT.to_owned(),
-        remedy: "copy the card into the study, or put the whole study where the cards are".to_owned(),
-    }
-}
-
-fn missing_card(dir: &SessionDir) -> Problem {
-    let raters: Vec<_> = dir.marks.keys().map(String::as_str).collect();
-    Problem {
-        stage: Stage::Ingest,
-        code: "missing_card".to_owned(),
-        place: format!("cards/{}", dir.name),
-        fact: format!("there are marks by {}, but no card", raters.join(", ")),
-        remedy: "copy the SD card there, or remove the marks of this session".to_owned(),
-    }
 }
 
 fn session_spec(study: &Study, card: &Path, output: &mut SessionOutput) -> Result<SessionSpec, Problem> {

@@ -23,7 +23,7 @@ pub use spec::{
 /// A study whose settings have been read and checked.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// Its folder.
+    /// Its folder, links resolved.
     pub dir: PathBuf,
     /// Its settings, overrides applied.
     pub spec: StudySpec,
@@ -49,9 +49,8 @@ impl Study {
     /// # Errors
     /// [`StudyError`] for what concerns the whole study. What concerns one session is found when that session is run.
     pub fn load(dir: &Path, adjust: impl FnOnce(&mut StudySpec)) -> Result<Self, StudyError> {
-        if !dir.is_dir() {
-            return Err(StudyError::NoFolder(dir.to_owned()));
-        }
+        let refuse = || StudyError::NoFolder(dir.to_owned());
+        let dir = &dir.canonicalize().ok().filter(|dir| dir.is_dir()).ok_or_else(refuse)?;
         let mut spec: StudySpec = ingest::config::read_toml(&dir.join("study.toml"))?;
         adjust(&mut spec);
         spec.check()?;
@@ -89,10 +88,7 @@ impl Study {
     /// Whether `path` lies in the study, links followed.
     #[must_use]
     pub fn holds(&self, path: &Path) -> bool {
-        match (self.dir.canonicalize(), path.canonicalize()) {
-            (Ok(study), Ok(path)) => path.starts_with(study),
-            _ => false,
-        }
+        path.canonicalize().is_ok_and(|path| path.starts_with(&self.dir))
     }
 
     fn check_tables(&self) -> Result<(), StudyError> {

@@ -1,0 +1,51 @@
+//! What can be wrong with a session as a whole.
+
+use std::path::Path;
+
+use model::{Problem, Stage};
+
+use super::Session;
+use crate::study::{SessionDir, Study};
+
+/// A card none of whose images has a pose: a dead sensor, or a profile that does not fit.
+pub(super) fn no_pose(session: &Session<'_>) -> Option<Problem> {
+    let reason = session.frames.first()?.signals.reason;
+    session.frames.iter().all(|frame| frame.signals.pose.is_none()).then(|| Problem {
+        stage: Stage::Signals,
+        code: "no_image_with_pose".to_owned(),
+        place: format!("cards/{}", session.dir.name),
+        fact: format!("none of its {} images has a pose; of the first: {}", session.frames.len(), reason.meaning()),
+        remedy: "check the sensors' files, and axes, scales and mount offset of the device profile".to_owned(),
+    })
+}
+
+/// Errors of files carry whole paths; what goes into the results must not depend on where the study lies.
+pub(super) fn without_host(fact: &str, study: &Study, mcap_dir: &Path) -> String {
+    let inside = |folder: &Path| format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR);
+    // The work folder may lie in the study, so its name goes first.
+    fact.replace(&inside(mcap_dir), "mcap/").replace(&inside(&study.dir), "")
+}
+
+/// What is wrong with a link that leaves the study.
+pub(super) const LINK_FACT: &str = "this is a link to a place outside the study";
+
+pub(super) fn link_out_of_study(dir: &SessionDir) -> Problem {
+    Problem {
+        stage: Stage::Ingest,
+        code: "link_out_of_study".to_owned(),
+        place: format!("cards/{}", dir.name),
+        fact: LINK_FACT.to_owned(),
+        remedy: "copy the card into the study, or put the whole study where the cards are".to_owned(),
+    }
+}
+
+pub(super) fn missing_card(dir: &SessionDir) -> Problem {
+    let raters: Vec<_> = dir.marks.keys().map(String::as_str).collect();
+    Problem {
+        stage: Stage::Ingest,
+        code: "missing_card".to_owned(),
+        place: format!("cards/{}", dir.name),
+        fact: format!("there are marks by {}, but no card", raters.join(", ")),
+        remedy: "copy the SD card there, or remove the marks of this session".to_owned(),
+    }
+}
