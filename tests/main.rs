@@ -4,6 +4,7 @@
 #![allow(clippy::print_stdout, reason = "what was measured, and what was skipped, shows with --nocapture")]
 
 mod bad_input;
+mod documents;
 mod layers;
 mod measure;
 mod project;

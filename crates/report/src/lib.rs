@@ -3,7 +3,7 @@
 //! - [`ParquetSink`] takes the rows of a run and writes `results.parquet` and `frames.parquet`.
 //! - [`Results`] reads `results.parquet` back, with the metadata of its run; [`read_frames`] reads `frames.parquet`.
 //! - [`tables`] makes the tables that the study asks for; [`sizes`], [`error_by_pitch`] and [`error_by_height`] three more.
-//! - [`terminal`], [`csv`], [`markdown`] and [`latex`] draw one [`Table`]; [`write_dir`] writes them all.
+//! - [`terminal`], [`csv()`], [`markdown`] and [`latex`] draw one [`Table`]; [`write_dir`] writes them all.
 //! - [`compare`] holds the tables against a folder of expected ones: a gate for automatic runs.
 //!
 //! What each table is, its statistics and its CSV columns: docs/tables.md.
