@@ -167,6 +167,27 @@ fn bad_session_toml() {
     assert_told_and_rest_complete(&study, &["bad_session_toml", "particpant", "participant"]);
 }
 
+/// Marks on a corrected picture are of another camera; with a session's own camera that camera must be named too.
+#[test]
+fn a_session_camera_needs_its_own_marks_camera_where_the_study_has_one() {
+    let corrected = CAMERA.replace("width_px = 64", "width_px = 128");
+    let study = StudyFolder::new("[marks]\ncamera = \"corrected\"\n", OBJECTS, CAMERA);
+    study.write("devices/corrected.toml", &corrected);
+    study.session("good", &[shot()]);
+    study.session("own", &[shot()]);
+    study.write("cards/own/session.toml", "camera = \"cam\"\n");
+    let output = run_study(&study);
+    assert_exit(&output, 3);
+    assert!(stderr(&output).contains("expected marks_camera here too"), "{}", stderr(&output));
+    study.write("cards/own/session.toml", "camera = \"cam\"\nmarks_camera = \"corrected\"\n");
+    assert_exit(&run_study(&study), 0);
+    let of = |session: &str| {
+        let row = rows(&study).into_iter().find(|row| row.session == session).unwrap();
+        row.predicted_mm.unwrap()
+    };
+    assert!((of("own") - of("good")).abs() < 1e-9);
+}
+
 /// What goes wrong is in the results too; it must not carry the paths of the machine.
 #[test]
 fn results_with_problems_do_not_depend_on_where_the_study_lies() {

@@ -163,6 +163,7 @@ fn a_height_above_the_camera_is_refused() {
         "--json",
     ]);
     assert_exit(&output, 3);
+    assert!(stderr(&output).contains("height of 'b' by paper: a wall"), "{}", stderr(&output));
     let rows: Vec<Value> = serde_json::from_str(&stdout(&output)).unwrap();
     let paper = rows.iter().find(|row| row["method"] == "paper").unwrap();
     assert!(paper["predicted_mm"].is_null() && paper["problem"].as_str().unwrap().contains("above the camera"));

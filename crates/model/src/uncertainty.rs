@@ -84,7 +84,7 @@ pub fn estimate(
         .sizes(&chain.view, marks)
         .into_iter()
         .map(|(quantity, size)| {
-            (quantity, size.map(|measured| Estimate { measured, sigma: chain.sigma(quantity, inputs) }))
+            (quantity, size.map(|measured| Estimate { measured, sigma: chain.sigma(&measured, inputs) }))
         })
         .collect()
 }
@@ -106,7 +106,8 @@ impl Chain<'_> {
         Some(size.ok()?.predicted_mm)
     }
 
-    fn sigma(&self, quantity: Quantity, inputs: &InputSigma) -> Option<SizeSigma> {
+    fn sigma(&self, measured: &Measured, inputs: &InputSigma) -> Option<SizeSigma> {
+        let quantity = measured.quantity;
         let (pose, camera) = (*self.view.pose(), *self.view.camera());
         let by_pose = |pitch_rad: f64, roll_rad: f64, range_mm: f64| {
             self.half_difference(quantity, |sign| {
@@ -129,7 +130,7 @@ impl Chain<'_> {
             pitch_mm: by_pose(inputs.pitch_rad, 0.0, 0.0)?.abs(),
             roll_mm: by_pose(0.0, inputs.tilt_rad / pose.pitch_rad().cos().max(STEEPEST_COS), 0.0)?.abs(),
             range_mm: by_pose(0.0, 0.0, inputs.range_relative * pose.range_mm())?.abs(),
-            marks_mm: self.marks_sigma_mm(quantity, inputs.mark_px)?,
+            marks_mm: self.marks_sigma_mm(measured, inputs.mark_px)?,
             camera_mm: camera_parts.iter().map(|p| p * p).sum::<f64>().sqrt(),
         })
     }
@@ -141,14 +142,13 @@ impl Chain<'_> {
     }
 
     /// From the marks: of the span itself, and of the height line through the rim plane.
-    fn marks_sigma_mm(&self, quantity: Quantity, mark_px: f64) -> Option<f64> {
+    fn marks_sigma_mm(&self, measured: &Measured, mark_px: f64) -> Option<f64> {
+        let (quantity, z_mm) = (measured.quantity, measured.plane_z_mm);
         let height_sigma_mm = || Some(mark_px * height_sigma_per_px(&self.view, self.method, self.marks).ok()?);
         if quantity == Quantity::Height {
             return height_sigma_mm();
         }
         let shape = self.container.shape;
-        let (_, size) = self.sizes(&self.view, self.marks).into_iter().find(|(q, _)| *q == quantity)?;
-        let z_mm = size.ok()?.plane_z_mm;
         let of_span_mm = mark_px * spans_sigma_per_px(&self.view, shape, quantity, self.marks, z_mm).ok()?;
         if self.container.rim_height_mm.is_some() || self.container.kind == Kind::Plate {
             return Some(of_span_mm);

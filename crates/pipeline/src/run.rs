@@ -73,12 +73,12 @@ pub fn run<S: ResultSink>(
     let jobs = options.jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
     let threads = jobs.min(study.sessions.len()); // a thread without a session is of no use
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1)).build()?;
+    let mut inputs_sha256 = study_inputs(study)?;
     reporter.begin(study.sessions.len());
     let outputs: Vec<SessionOutput> = pool.install(|| {
         let one = |dir| guarded(study, dir, &session_options, reporter);
         study.sessions.par_iter().map(one).collect()
     });
-    let mut inputs_sha256 = study_inputs(study)?;
     let mut sessions = Vec::new();
     for output in outputs {
         sink.session(output.results, output.frames).map_err(RunError::Sink)?;

@@ -1,5 +1,6 @@
 //! `measure`: sizes of what is marked in one picture.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::Read;
@@ -76,9 +77,12 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome, Failure> {
         lost = true;
         tracing::error!("the marks of '{}' give no size of a {shape}", object.object);
     }
-    for size in sizes.iter().filter(|size| size.method == METHODS[0]) {
-        if let Some(problem) = &size.problem {
-            tracing::error!("{} of '{}': {problem}", size.quantity, size.object);
+    let mut told = BTreeSet::new();
+    for size in &sizes {
+        if let Some(problem) = &size.problem
+            && told.insert((&size.object, size.quantity, problem))
+        {
+            tracing::error!("{} of '{}' by {}: {problem}", size.quantity, size.object, size.method);
         }
     }
     if sizes.iter().all(|size| size.predicted_mm.is_none()) {

@@ -25,9 +25,8 @@ pub fn run(args: &ProjectArgs) -> Result<Outcome, Failure> {
     let mut writer = csv::Writer::from_writer(io::stdout().lock());
     writer.write_record(from.iter().chain(&to))?;
     let mut lost = 0_usize;
-    for record in reader.byte_records() {
-        let record = record.map_err(Failure::usage)?;
-        let line = record.position().map_or(0, csv::Position::line);
+    for (row, record) in (1..).zip(reader.byte_records()) {
+        let record: csv::ByteRecord = record.map_err(Failure::usage)?;
         let cells = columns.map(|column| String::from_utf8_lossy(record.get(column).unwrap_or_default()));
         let texts = [&*cells[0], &*cells[1]];
         match project(args, &view, texts) {
@@ -35,7 +34,7 @@ pub fn run(args: &ProjectArgs) -> Result<Outcome, Failure> {
             Err(why) => {
                 lost += 1;
                 if lost <= WARNINGS_TOLD {
-                    tell(&format!("warning: line {line}: no answer for ({}, {}): {why}\n", texts[0], texts[1]))?;
+                    tell(&format!("warning: row {row}: no answer for ({}, {}): {why}\n", texts[0], texts[1]))?;
                 }
                 writer.write_record([texts[0], texts[1], "", ""])?;
             }

@@ -3,10 +3,11 @@
 use std::fs::File;
 
 use mcap::records::{MessageHeader, Record, op};
-use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::sans_io::linear_reader::LinearReaderOptions;
 use model::UtcNs;
 
 use super::error::Damage;
+use super::records::for_each_record;
 use super::summary::{ChunkAt, body, read_at};
 use crate::mcap_file::LARGEST_CHUNK_BYTES;
 
@@ -32,25 +33,14 @@ pub(super) fn for_each_message(
         .with_skip_end_magic(true)
         .with_prevalidate_chunk_crcs(true)
         .with_record_length_limit(limit);
-    let mut reader = LinearReader::new_with_options(options);
-    let mut rest = bytes.as_slice();
-    while let Some(event) = reader.next_event() {
-        match event? {
-            LinearReadEvent::ReadRequest(wanted) => {
-                let (now, later) = rest.split_at(wanted.min(rest.len()));
-                reader.insert(now.len()).copy_from_slice(now);
-                reader.notify_read(now.len());
-                rest = later;
-            }
-            LinearReadEvent::Record { data, opcode: op::MESSAGE } => {
-                if let Record::Message { header, data } = mcap::parse_record(op::MESSAGE, data)? {
-                    each(&header, &data)?;
-                }
-            }
-            LinearReadEvent::Record { .. } => {}
+    for_each_record(&bytes, options, |opcode, data| {
+        if opcode == op::MESSAGE
+            && let Record::Message { header, data } = mcap::parse_record(opcode, data)?
+        {
+            each(&header, &data)?;
         }
-    }
-    Ok(())
+        Ok(())
+    })
 }
 
 /// When a message was taken.

@@ -2,6 +2,7 @@
 
 mod chunk;
 mod error;
+mod records;
 mod samples;
 mod summary;
 

@@ -5,10 +5,11 @@ use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 
 use mcap::records::{ChunkIndex, Record, op};
-use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::sans_io::linear_reader::LinearReaderOptions;
 use model::UtcNs;
 
 use super::error::Damage;
+use super::records::for_each_record;
 use crate::mcap_file::metadata::Records;
 use crate::mcap_file::topic;
 
@@ -49,7 +50,13 @@ impl Index {
         let summary = read_summary(file, file_bytes)?;
         let mut index = Self { topics: BTreeMap::new(), chunks: Vec::new() };
         let mut metadata_at = Vec::new();
-        for_each_record(&summary, |opcode, data| {
+        // The library checks the checksum of the summary. Chunks are not opened.
+        let options = LinearReaderOptions::default()
+            .with_skip_start_magic(true)
+            .with_emit_chunks(true)
+            .with_validate_summary_section_crc(true)
+            .with_record_length_limit(summary.len());
+        for_each_record(&summary, options, |opcode, data| {
             // Only these: the library's parser of attachments panics on a short record.
             if !matches!(opcode, op::CHANNEL | op::CHUNK_INDEX | op::METADATA_INDEX) {
                 return Ok(());
@@ -118,29 +125,6 @@ fn read_summary(file: &File, file_bytes: u64) -> Result<Vec<u8>, Damage> {
     let length = file_bytes.checked_sub(start).filter(|length| *length <= LARGEST_INDEX_BYTES);
     let length = length.ok_or(Damage::Outside { part: "index", offset: start, file_bytes })?;
     read_at(file, file_bytes, "index", start, length)
-}
-
-/// Feeds bytes to the library's reader, which checks the checksum of the summary. Chunks are not opened.
-fn for_each_record(bytes: &[u8], mut each: impl FnMut(u8, &[u8]) -> Result<(), Damage>) -> Result<(), Damage> {
-    let options = LinearReaderOptions::default()
-        .with_skip_start_magic(true)
-        .with_emit_chunks(true)
-        .with_validate_summary_section_crc(true)
-        .with_record_length_limit(bytes.len());
-    let mut reader = LinearReader::new_with_options(options);
-    let mut rest = bytes;
-    while let Some(event) = reader.next_event() {
-        match event? {
-            LinearReadEvent::ReadRequest(wanted) => {
-                let (now, later) = rest.split_at(wanted.min(rest.len()));
-                reader.insert(now.len()).copy_from_slice(now);
-                reader.notify_read(now.len());
-                rest = later;
-            }
-            LinearReadEvent::Record { data, opcode } => each(opcode, data)?,
-        }
-    }
-    Ok(())
 }
 
 /// The body of the one record in `bytes`.

@@ -78,13 +78,12 @@ fn read_file(
     output: &mut SessionOutput,
 ) -> Result<Option<(String, Vec<ObjectMarks>)>, Problem> {
     let place = relative(session.study, path);
-    let camera = session.study.marks_camera.as_ref().map_or(&session.camera, |(_, camera)| camera);
     let refuse = |error: MarksError| {
         problem(error.code(), place.clone(), error.to_string(), "correct the marks in LabelMe and run again")
     };
     let bytes = labelme::read_bytes(path).map_err(refuse)?;
     output.inputs_sha256.insert(place.clone(), sha256_of_bytes(&bytes));
-    let marks = labelme::parse(&bytes, path, camera.size_px()).map_err(refuse)?;
+    let marks = labelme::parse(&bytes, path, session.marks_camera.size_px()).map_err(refuse)?;
     output.status.problems.extend(marks.refused.into_iter().map(refuse));
     let stem = stem_of(&path.to_string_lossy());
     match images.get(&stem).map(Vec::as_slice) {

@@ -16,7 +16,7 @@ use crate::reporter::Reporter;
 use crate::signals::{self, FrameSignals, SignalSettings};
 use crate::study::{SessionDir, SessionSpec, Study};
 use marks::SessionMarks;
-use problems::{link_out_of_study, missing_card, no_pose, without_host};
+use problems::{MARKS_CAMERA_FACT, bad_camera, link_out_of_study, missing_card, no_pose, without_host};
 
 /// What one session gives.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -53,7 +53,8 @@ struct Session<'a> {
     study: &'a Study,
     dir: &'a SessionDir,
     spec: SessionSpec,
-    camera: Camera,
+    /// Camera of the pictures that were marked.
+    marks_camera: Camera,
     frames: Vec<Frame>,
     dropped: Vec<DroppedImage>,
 }
@@ -107,13 +108,10 @@ fn fill(
         return Err(link_out_of_study(dir));
     }
     let spec = session_spec(study, card, output)?;
-    let (camera_spec, camera) = study.camera_of_session(&spec).map_err(|error| Problem {
-        stage: Stage::Study,
-        code: "bad_camera".to_owned(),
-        place: format!("cards/{}/session.toml", dir.name),
-        fact: error.to_string(),
-        remedy: "name a built-in camera or one in devices/".to_owned(),
-    })?;
+    let (camera_spec, camera) = study.camera_of_session(&spec).map_err(|error| bad_camera(dir, error.to_string()))?;
+    let marks_camera = study.marks_camera_of_session(&spec, camera);
+    let marks_camera = marks_camera.map_err(|error| bad_camera(dir, error.to_string()))?;
+    let marks_camera = marks_camera.ok_or_else(|| bad_camera(dir, MARKS_CAMERA_FACT.to_owned()))?;
     let source = SessionSource {
         session: dir.name.clone(),
         card_dir: card.to_owned(),
@@ -129,7 +127,7 @@ fn fill(
     output.status.problems.extend(metadata.problems.iter().cloned());
     let on_card = metadata.inputs_sha256.iter().map(|(file, sha)| (format!("cards/{}/{file}", dir.name), sha.clone()));
     output.inputs_sha256.extend(on_card);
-    let session = Session { study, dir, spec, camera, frames, dropped: metadata.dropped_images };
+    let session = Session { study, dir, spec, marks_camera, frames, dropped: metadata.dropped_images };
     reporter.stage(&dir.name, Stage::Marks);
     let marks = SessionMarks::read(&session, output);
     reporter.stage(&dir.name, Stage::Measure);

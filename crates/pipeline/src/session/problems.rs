@@ -29,6 +29,19 @@ pub(super) fn without_host(fact: &str, study: &Study, mcap_dir: &Path) -> String
 /// What is wrong with a link that leaves the study.
 pub(super) const LINK_FACT: &str = "this is a link to a place outside the study";
 
+/// What is wrong with a session that has its own camera, in a study whose marked pictures are of another.
+pub(super) const MARKS_CAMERA_FACT: &str = "the session has its own camera, but [marks] camera of study.toml is of the study's; expected marks_camera here too";
+
+pub(super) fn bad_camera(dir: &SessionDir, fact: String) -> Problem {
+    Problem {
+        stage: Stage::Study,
+        code: "bad_camera".to_owned(),
+        place: format!("cards/{}/session.toml", dir.name),
+        fact,
+        remedy: "name built-in cameras or ones in devices/ (docs/study.md)".to_owned(),
+    }
+}
+
 pub(super) fn link_out_of_study(dir: &SessionDir) -> Problem {
     Problem {
         stage: Stage::Ingest,

@@ -59,8 +59,7 @@ fn unusable(session: &Session<'_>, frame: &Frame, rater: &str) -> Problem {
 
 fn measure_one(marked: &Marked<'_>, problems: &mut Vec<Problem>) -> Vec<ResultRow> {
     let study = marked.session.study;
-    let camera = study.marks_camera.as_ref().map_or(marked.session.camera, |(_, camera)| *camera);
-    let view = View::new(camera, marked.pose);
+    let view = View::new(marked.session.marks_camera, marked.pose);
     let inputs = study.spec.uncertainty.inputs();
     let mut rows = Vec::new();
     let mut told = BTreeSet::new();
@@ -110,8 +109,7 @@ fn row(marked: &Marked<'_>, method: Method, quantity: Quantity, size: &Result<Es
     let selected = frame.signals.reason == FrameReason::Selected;
     let mut flags: Vec<&str> = Vec::new();
     flags.extend((!selected).then(|| frame.signals.reason.code()));
-    let camera = session.study.marks_camera.as_ref().map_or(&session.camera, |(_, camera)| camera);
-    flags.extend((!marks.inside_picture(camera.size_px())).then_some("mark_outside_picture"));
+    flags.extend((!marks.inside_picture(session.marks_camera.size_px())).then_some("mark_outside_picture"));
     flags.extend(size.as_ref().err().map(MeasureError::code));
     ResultRow {
         schema_version: RESULTS_SCHEMA_VERSION,

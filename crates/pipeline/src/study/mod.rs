@@ -91,6 +91,20 @@ impl Study {
         path.canonicalize().is_ok_and(|path| path.starts_with(&self.dir))
     }
 
+    /// The camera of the pictures of a session that people marked: the session's own, else the study's, else `camera`,
+    /// which is the session's. None where the session has its own camera and the study's marks camera is another's.
+    ///
+    /// # Errors
+    /// [`StudyError`] when the session names a camera that cannot be read.
+    pub fn marks_camera_of_session(&self, session: &SessionSpec, camera: Camera) -> Result<Option<Camera>, StudyError> {
+        match (&session.marks_camera, &self.marks_camera) {
+            (Some(name), _) => load_camera(name, &self.dir.join("devices")).map(|(_, camera)| Some(camera)),
+            (None, Some(_)) if session.camera.is_some() => Ok(None),
+            (None, Some((_, of_study))) => Ok(Some(*of_study)),
+            (None, None) => Ok(Some(camera)),
+        }
+    }
+
     fn check_tables(&self) -> Result<(), StudyError> {
         for table in &self.tables {
             if let Some(unknown) = table.objects.iter().find(|object| !self.objects.contains_key(*object)) {

@@ -19,6 +19,8 @@ pub struct SessionSpec {
     pub setup_pitch_deg: Option<f64>,
     /// This session's camera, if not the study's.
     pub camera: Option<String>,
+    /// Camera of this session's marked pictures, if those are not the raw ones.
+    pub marks_camera: Option<String>,
 }
 
 /// Where one session's files are.
