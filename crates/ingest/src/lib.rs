@@ -51,6 +51,7 @@ mod progress;
 mod read;
 mod sample;
 mod summary;
+pub mod timeline;
 
 pub use config::ConfigError;
 pub use ingest::{IngestError, Ingested, SessionSource, ingest_if_changed, ingest_session};

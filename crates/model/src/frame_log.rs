@@ -7,8 +7,11 @@ coded_enum! {
     FrameReason {
         EmptyImage = "empty_image": "the file has no bytes",
         NotAnImage = "not_an_image": "the file does not begin like a JPEG or PNG picture, or its header is damaged",
+        DamagedImage = "damaged_image": "the picture's data end before their end marker, or hold a block of zeros",
         WrongSize = "wrong_size": "the picture's width and height are not the camera's",
         NoTime = "no_time": "neither the file name nor EXIF gives the image's time as the profile declares it",
+        TimesDisagree = "times_disagree": "file name and EXIF give different times",
+        AmbiguousTime = "ambiguous_time": "the clock was set during the session, and the image's time exists twice",
         NoAcceleration = "no_acceleration": "too few accelerometer samples around the image's time to tell gravity",
         BadGravity = "bad_gravity": "the length of gravity is too far from 1 g: the accelerometer or its scale is wrong",
         NoRange = "no_range": "too few valid range samples around the image's time",

@@ -61,7 +61,7 @@ pub use pose::{Pose, PoseError};
 pub use results::{FrameRow, Level, ResultRow};
 pub use sink::{ResultSink, RunMetadata};
 pub use stats::{ErrorStats, median};
-pub use status::{Problem, SessionStatus, Stage};
+pub use status::{Problem, SessionStatus, Severity, Stage};
 pub use table::{Note, PrintedRow, PrintedSummary, PrintedTable, Selection, TableLayout, TableSpec};
 pub use time::UtcNs;
 pub use uncertainty::{Estimate, InputSigma, SizeSigma, estimate};

@@ -15,9 +15,19 @@ coded_enum! {
     }
 }
 
+coded_enum! {
+    /// What a problem cost.
+    Severity {
+        Loss = "loss": "data was lost or could not be used: exit code 3",
+        Note = "note": "worth knowing, nothing was lost by it",
+    }
+}
+
 /// One thing that went wrong, for the person who must act on it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Problem {
+    /// What it cost.
+    pub severity: Severity,
     /// Where in the road.
     pub stage: Stage,
     /// Stable code, snake case.
@@ -45,6 +55,14 @@ pub struct SessionStatus {
     pub selected: usize,
     /// Sizes that could be measured: of single images and fused, by all methods.
     pub sizes: usize,
-    /// What went wrong; empty when all is well.
+    /// What went wrong, and what is worth knowing; empty when all is well.
     pub problems: Vec<Problem>,
+}
+
+impl SessionStatus {
+    /// Whether something of the session was lost.
+    #[must_use]
+    pub fn has_losses(&self) -> bool {
+        self.failed || self.problems.iter().any(|problem| problem.severity == Severity::Loss)
+    }
 }

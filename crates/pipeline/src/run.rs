@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
-use model::{Problem, ResultSink, RunMetadata, SessionStatus, Stage};
+use model::{Problem, ResultSink, RunMetadata, SessionStatus, Severity, Stage};
 use rayon::prelude::*;
 
 use crate::inputs::sha256_of_file;
@@ -105,6 +105,7 @@ fn guarded(study: &Study, dir: &SessionDir, options: &SessionOptions, reporter: 
             let said =
                 panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
             let problem = Problem {
+                severity: Severity::Loss,
                 stage: Stage::Measure,
                 code: "internal_error".to_owned(),
                 place: format!("cards/{}", dir.name),

@@ -2,6 +2,7 @@
 
 use ::ingest::{Profile, SessionSource, camera, ingest_session};
 use anyhow::{Context, anyhow};
+use model::Severity;
 
 use super::{PROGRAM, outcome, print, tell};
 use crate::args::IngestArgs;
@@ -38,5 +39,7 @@ pub fn run(args: &IngestArgs, bars: &Bars) -> Result<Outcome, Failure> {
     for problem in &summary.problems {
         tell(&format!("{} in {}: {}; {}\n", problem.code, problem.place, problem.fact, problem.remedy))?;
     }
-    Ok(outcome(!summary.problems.is_empty() || !summary.dropped_images.is_empty()))
+    Ok(outcome(
+        !summary.dropped_images.is_empty() || summary.problems.iter().any(|problem| problem.severity == Severity::Loss),
+    ))
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
+use model::SessionStatus;
 use pipeline::study::StudySpec;
 use pipeline::{RunOptions, Study};
 
@@ -46,7 +47,7 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     if sessions.iter().all(|session| session.failed) {
         return Err(Failure::Failed(anyhow!("no session could be used")));
     }
-    Ok(outcome(sessions.iter().any(|session| session.failed || !session.problems.is_empty())))
+    Ok(outcome(sessions.iter().any(SessionStatus::has_losses)))
 }
 
 /// Flags and environment win over study.toml.

@@ -13,6 +13,7 @@ use crate::profile::Images;
 use crate::progress::IngestProgress;
 use crate::sample::Sample;
 use crate::summary::{Counts, DroppedImage, ImageEntry, IngestSummary};
+use crate::timeline::Timeline;
 
 /// The ingest of one session under way.
 pub(super) struct Run<'a> {
@@ -129,6 +130,7 @@ impl<'a> Run<'a> {
             key: key::key_of(self.source, &self.inputs)?,
             time_zone: key::zone_name(&self.source.time_zone),
             counts: self.counts,
+            timeline: Timeline::default(),
             profile: self.source.profile.clone(),
             camera: self.source.camera_spec.clone(),
             inputs_sha256: self.inputs.sha256,

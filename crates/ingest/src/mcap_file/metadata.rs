@@ -9,12 +9,14 @@ use serde::de::DeserializeOwned;
 
 use crate::profile::Profile;
 use crate::summary::{Counts, DroppedImage};
+use crate::timeline::Timeline;
 
 pub(crate) const SESSION: &str = "aim_batch.session";
 pub(crate) const PROFILE: &str = "aim_batch.profile";
 pub(crate) const CAMERA: &str = "aim_batch.camera";
 pub(crate) const INPUTS: &str = "aim_batch.inputs";
 pub(crate) const DROPPED_IMAGES: &str = "aim_batch.dropped_images";
+pub(crate) const TIMELINE: &str = "aim_batch.timeline";
 pub(crate) const PROBLEMS: &str = "aim_batch.problems";
 /// SHA-256 of all the others: chunks carry checksums, metadata records do not.
 pub(crate) const SEAL: &str = "aim_batch.seal";
@@ -31,6 +33,7 @@ pub(crate) struct Facts {
     pub key: String,
     pub time_zone: String,
     pub counts: Counts,
+    pub timeline: Timeline,
     pub profile: Profile,
     pub camera: CameraSpec,
     pub inputs_sha256: BTreeMap<String, String>,
@@ -68,6 +71,7 @@ impl Facts {
             (CAMERA.to_owned(), one("toml", toml_text(CAMERA, &self.camera)?)),
             (INPUTS.to_owned(), self.inputs_sha256.clone()),
             (DROPPED_IMAGES.to_owned(), one("json", json(DROPPED_IMAGES, &self.dropped_images)?)),
+            (TIMELINE.to_owned(), one("json", json(TIMELINE, &self.timeline)?)),
             (PROBLEMS.to_owned(), one("json", json(PROBLEMS, &self.problems)?)),
         ]);
         records.insert(SEAL.to_owned(), one("sha256", seal(&records)));
@@ -90,6 +94,7 @@ impl Facts {
             key: text("key")?,
             time_zone: text("time_zone")?,
             counts: from_json(&records, SESSION, "counts")?,
+            timeline: from_json(&records, TIMELINE, "json")?,
             profile: from_toml(&records, PROFILE)?,
             camera: from_toml(&records, CAMERA)?,
             dropped_images: from_json(&records, DROPPED_IMAGES, "json")?,

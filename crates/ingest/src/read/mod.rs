@@ -21,6 +21,7 @@ use crate::mcap_file::topic;
 use crate::profile::Profile;
 use crate::sample::Sample;
 use crate::summary::{Counts, DroppedImage, ImageEntry};
+use crate::timeline::Timeline;
 use error::Damage;
 use summary::Index;
 
@@ -47,6 +48,8 @@ pub struct SessionMetadata {
     pub inputs_sha256: BTreeMap<String, String>,
     /// Samples and images in the file.
     pub counts: Counts,
+    /// What the clocks did.
+    pub timeline: Timeline,
     /// Images of the card that could not be used, sorted by file.
     pub dropped_images: Vec<DroppedImage>,
     /// What was wrong with the card.
@@ -84,6 +87,7 @@ impl SessionReader {
             camera: facts.camera,
             inputs_sha256: facts.inputs_sha256,
             counts: facts.counts,
+            timeline: facts.timeline,
             dropped_images: facts.dropped_images,
             problems: facts.problems,
         };

@@ -133,5 +133,7 @@ schema! {
         range_samples: u32 = "valid range samples in the window",
         raters: u32 = "number of raters with marks on the image",
         sizes: u32 = "number of sizes measured on the image, over raters and methods",
+        range_distinct: u32 = "readings of the range sensor behind range_samples: values that it held over several records count once",
+        flags: String = "codes of what to know about the image's signals, joined by commas (docs/ledger.md); empty when there is nothing",
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use model::{FrameReason, ObjectMarks, Problem, Stage};
+use model::{FrameReason, ObjectMarks, Problem, Severity, Stage};
 
 use super::problems::LINK_FACT;
 use super::{Session, SessionOutput, relative};
@@ -150,5 +150,12 @@ fn stem_of(file: &str) -> String {
 }
 
 fn problem(code: &str, place: String, fact: String, remedy: &str) -> Problem {
-    Problem { stage: Stage::Marks, code: code.to_owned(), place, fact, remedy: remedy.to_owned() }
+    Problem {
+        severity: Severity::Loss,
+        stage: Stage::Marks,
+        code: code.to_owned(),
+        place,
+        fact,
+        remedy: remedy.to_owned(),
+    }
 }

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ingest::{DroppedImage, ImageEntry, IngestProgress, Ingested, SessionMetadata, SessionReader, SessionSource};
-use model::{Camera, FrameRow, Problem, ResultRow, SessionStatus, Stage};
+use model::{Camera, FrameRow, Problem, ResultRow, SessionStatus, Severity, Stage};
 
 use crate::inputs::sha256_of_file;
 use crate::reporter::Reporter;
@@ -148,6 +148,7 @@ fn session_spec(study: &Study, card: &Path, output: &mut SessionOutput) -> Resul
         return Ok(SessionSpec::default());
     }
     let refuse = |fact: String| Problem {
+        severity: Severity::Loss,
         stage: Stage::Study,
         code: "bad_session_toml".to_owned(),
         place: relative(study, &path),
@@ -171,6 +172,7 @@ fn ingest_card(source: &SessionSource, options: &SessionOptions, reporter: &dyn 
         tracing::info!(session = source.session, "{what}");
     }
     outcome.map(|_| mcap).map_err(|error| Problem {
+        severity: Severity::Loss,
         stage: Stage::Ingest,
         code: error.code().to_owned(),
         place: format!("cards/{}", source.session),
@@ -196,6 +198,7 @@ impl IngestProgress for Progress<'_> {
 
 fn read_frames(study: &Study, mcap: &Path, name: &str) -> Result<(SessionMetadata, Vec<Frame>), Problem> {
     let refuse = |error: ingest::ReadError| Problem {
+        severity: Severity::Loss,
         stage: Stage::Signals,
         code: "bad_mcap".to_owned(),
         place: format!("mcap/{name}.mcap"),

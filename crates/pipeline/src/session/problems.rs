@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use model::{Problem, Stage};
+use model::{Problem, Severity, Stage};
 
 use super::Session;
 use crate::study::{SessionDir, Study};
@@ -11,6 +11,7 @@ use crate::study::{SessionDir, Study};
 pub(super) fn no_pose(session: &Session<'_>) -> Option<Problem> {
     let reason = session.frames.first()?.signals.reason;
     session.frames.iter().all(|frame| frame.signals.pose.is_none()).then(|| Problem {
+        severity: Severity::Loss,
         stage: Stage::Signals,
         code: "no_image_with_pose".to_owned(),
         place: format!("cards/{}", session.dir.name),
@@ -34,6 +35,7 @@ pub(super) const MARKS_CAMERA_FACT: &str = "the session has its own camera, but 
 
 pub(super) fn bad_camera(dir: &SessionDir, fact: String) -> Problem {
     Problem {
+        severity: Severity::Loss,
         stage: Stage::Study,
         code: "bad_camera".to_owned(),
         place: format!("cards/{}/session.toml", dir.name),
@@ -44,6 +46,7 @@ pub(super) fn bad_camera(dir: &SessionDir, fact: String) -> Problem {
 
 pub(super) fn link_out_of_study(dir: &SessionDir) -> Problem {
     Problem {
+        severity: Severity::Loss,
         stage: Stage::Ingest,
         code: "link_out_of_study".to_owned(),
         place: format!("cards/{}", dir.name),
@@ -55,6 +58,7 @@ pub(super) fn link_out_of_study(dir: &SessionDir) -> Problem {
 pub(super) fn missing_card(dir: &SessionDir) -> Problem {
     let raters: Vec<_> = dir.marks.keys().map(String::as_str).collect();
     Problem {
+        severity: Severity::Loss,
         stage: Stage::Ingest,
         code: "missing_card".to_owned(),
         place: format!("cards/{}", dir.name),

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use model::results::RESULTS_SCHEMA_VERSION;
 use model::{
     Estimate, FrameReason, FrameRow, Level, MeasureError, Method, ObjectMarks, Pose, Problem, Quantity, ResultRow,
-    Stage, View, estimate,
+    Severity, Stage, View, estimate,
 };
 
 use super::marks::SessionMarks;
@@ -49,6 +49,7 @@ fn order(row: &ResultRow) -> impl Ord + '_ {
 
 fn unusable(session: &Session<'_>, frame: &Frame, rater: &str) -> Problem {
     Problem {
+        severity: Severity::Loss,
         stage: Stage::Signals,
         code: "marked_image_without_pose".to_owned(),
         place: session.place_of(&frame.image.file),
@@ -81,6 +82,7 @@ fn measure_one(marked: &Marked<'_>, problems: &mut Vec<Problem>) -> Vec<ResultRo
 
 fn unmeasured(marked: &Marked<'_>, quantity: Quantity, error: &MeasureError) -> Problem {
     Problem {
+        severity: Severity::Loss,
         stage: Stage::Measure,
         code: error.code().to_owned(),
         place: marked.session.place_of(&marked.frame.image.file),
@@ -92,6 +94,7 @@ fn unmeasured(marked: &Marked<'_>, quantity: Quantity, error: &MeasureError) -> 
 fn nothing(marked: &Marked<'_>) -> Problem {
     let shape = marked.object.container.shape;
     Problem {
+        severity: Severity::Loss,
         stage: Stage::Measure,
         code: "nothing_to_measure".to_owned(),
         place: marked.session.place_of(&marked.frame.image.file),
@@ -206,6 +209,8 @@ fn empty_row(session: &Session<'_>, file: &str, reason: FrameReason) -> FrameRow
         range_samples: 0,
         raters: 0,
         sizes: 0,
+        range_distinct: 0,
+        flags: String::new(),
     }
 }
 

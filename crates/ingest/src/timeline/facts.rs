@@ -1,0 +1,91 @@
+//! What the clocks of a session did.
+
+use model::UtcNs;
+use serde::{Deserialize, Serialize};
+
+/// The time lines of a session's sensors.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Timeline {
+    /// The accelerometer's, if the profile declares one.
+    pub acceleration: Option<StreamFacts>,
+    /// The range sensor's, if the profile declares one.
+    pub range: Option<StreamFacts>,
+    /// Times that exist twice, because a clock was set back: what happened then cannot be told. Sorted and disjoint.
+    pub ambiguous: Vec<Span>,
+}
+
+impl Timeline {
+    /// Whether a window of `half_s` around `time` touches a time that exists twice.
+    #[must_use]
+    pub fn is_ambiguous(&self, time: UtcNs, half_s: f64) -> bool {
+        let (from, to) = (time.plus_seconds(-half_s), time.plus_seconds(half_s));
+        self.ambiguous.iter().any(|span| span.from <= to && from <= span.to)
+    }
+}
+
+/// From one time to a later one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Span {
+    /// Its first moment.
+    pub from: UtcNs,
+    /// Its last moment.
+    pub to: UtcNs,
+}
+
+impl Span {
+    /// Its length in seconds.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.to.seconds_since(self.from)
+    }
+}
+
+/// What one sensor's samples say of its clock.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct StreamFacts {
+    /// Samples used.
+    pub samples: u64,
+    /// Samples that the files mark as missing.
+    pub missing_samples: u64,
+    /// From the first sample to the last.
+    pub span: Option<Span>,
+    /// The rate that the profile declares.
+    pub nominal_rate_hz: f64,
+    /// Steps between samples, over the time that they take; gaps and clock jumps left out. None without two samples, and
+    /// where the times come from a declared rate.
+    pub measured_rate_hz: Option<f64>,
+    /// Shortest step between samples, in seconds, gaps and clock jumps left out.
+    pub shortest_step_s: Option<f64>,
+    /// Longest step likewise.
+    pub longest_step_s: Option<f64>,
+    /// Steps longer than this are gaps.
+    pub gap_s: f64,
+    /// Gaps: how many.
+    pub gaps: u64,
+    /// Gaps: seconds in all.
+    pub gaps_total_s: f64,
+    /// The first [`LISTED`] gaps, from the sample before to the sample after.
+    pub listed_gaps: Vec<Span>,
+    /// Packets, or batches of rows, that came after later ones, and were put in order.
+    pub reordered: u64,
+    /// Packets that were there twice and are used once.
+    pub duplicates: u64,
+    /// Where the clock was set while recording went on; the first [`LISTED`].
+    pub clock_jumps: Vec<ClockJump>,
+    /// Stretches of one time line each: one more than clock jumps. Gaps do not end a stretch.
+    pub stretches: Vec<Span>,
+    /// Bytes of the sensor's files that gave nothing: damage, not headers.
+    pub lost_bytes: u64,
+}
+
+/// A clock that was set while recording went on.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ClockJump {
+    /// The last time before it.
+    pub at: UtcNs,
+    /// By how much it was set, in seconds: negative for back.
+    pub by_s: f64,
+}
+
+/// Gaps, and clock jumps, that are listed; more are only counted.
+pub const LISTED: usize = 1000;
