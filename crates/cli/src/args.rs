@@ -95,7 +95,7 @@ pub struct IngestArgs {
     /// The MCAP file to write
     #[arg(short, long)]
     pub out: PathBuf,
-    /// Device profile: built in (aim2-packets, csv), or a name in --devices
+    /// Device profile: built in (aim2-packets, csv, pupil-neon, axivity-cwa), or a name in --devices
     #[arg(long, default_value = "aim2-packets")]
     pub profile: String,
     /// Camera: built in (aim2-raw, aim2-corrected), or a name in --devices
@@ -104,9 +104,12 @@ pub struct IngestArgs {
     /// Folder with device profiles and cameras
     #[arg(long, default_value = "devices")]
     pub devices: PathBuf,
-    /// Time zone of image times that name none (IANA)
+    /// Time zone of times that name none (IANA)
     #[arg(long, default_value = "UTC")]
     pub time_zone: String,
+    /// When a clock that counts from the device's start was zero, such as 2026-03-01T09:00:00Z
+    #[arg(long, value_name = "UTC")]
+    pub clock_zero: Option<jiff::Timestamp>,
 }
 
 /// `report`.

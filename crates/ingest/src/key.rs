@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use jiff::Timestamp;
 use jiff::tz::TimeZone;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -14,7 +15,7 @@ use crate::progress::{IngestProgress, NoProgress};
 use crate::read::SessionReader;
 
 /// Version of what ingest writes. A change of layout or meaning gives another number, and all sessions are ingested anew.
-pub const INGEST_VERSION: u32 = 1;
+pub const INGEST_VERSION: u32 = 2;
 
 /// SHA-256 over the session's name, the profile, the camera, the time zone, [`INGEST_VERSION`], and name and SHA-256 of
 /// every file that the profile's patterns fit. Reads all of them.
@@ -54,6 +55,7 @@ struct KeyParts<'a> {
     profile: String,
     camera: String,
     time_zone: String,
+    clock_zero_utc: Option<Timestamp>,
     inputs: &'a std::collections::BTreeMap<String, String>,
 }
 
@@ -64,6 +66,7 @@ pub(crate) fn key_of(source: &SessionSource, inputs: &Inputs) -> Result<String, 
         profile: toml_text("profile", &source.profile)?,
         camera: toml_text("camera", &source.camera_spec)?,
         time_zone: zone_name(&source.time_zone),
+        clock_zero_utc: source.clock_zero_utc,
         inputs: &inputs.sha256,
     };
     let text = serde_json::to_vec(&parts).map_err(IngestError::Key)?;

@@ -25,6 +25,7 @@
 //!     profile: Profile::load("aim2-packets", devices)?,
 //!     camera_spec: camera::load("aim2-raw", devices)?,
 //!     time_zone: jiff::tz::TimeZone::UTC,
+//!     clock_zero_utc: None,
 //!     program: "example 1.0".to_owned(),
 //! };
 //! let summary = ingest_session(&source, Path::new("P01.mcap"), &NoProgress)?;
@@ -58,6 +59,6 @@ pub use ingest::{IngestError, Ingested, SessionSource, ingest_if_changed, ingest
 pub use key::{INGEST_VERSION, ingest_is_current, inputs_key};
 pub use profile::Profile;
 pub use progress::{IngestProgress, NoProgress};
-pub use read::{ReadError, Samples, SessionMetadata, SessionReader};
+pub use read::{ReadError, SessionMetadata, SessionReader};
 pub use sample::Sample;
 pub use summary::{Counts, DroppedImage, ImageEntry, IngestSummary};

@@ -20,6 +20,7 @@ pub fn run(args: &IngestArgs, bars: &Bars) -> Result<Outcome, Failure> {
         time_zone: jiff::tz::TimeZone::get(&args.time_zone)
             .with_context(|| format!("--time-zone {}: expected an IANA name such as America/Chicago", args.time_zone))
             .map_err(Failure::Usage)?,
+        clock_zero_utc: args.clock_zero,
         program: PROGRAM.to_owned(),
     };
     let summary = ingest_session(&source, &args.out, bars).map_err(|error| anyhow!("{error}; {}", error.remedy()))?;

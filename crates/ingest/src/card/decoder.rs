@@ -1,79 +1,150 @@
-//! A sensor file of either layout.
+//! A sensor file of any layout.
 
 use std::io::Read;
 
-use model::UtcNs;
+use jiff::tz::TimeZone;
 
-use crate::parse::{Converter, CsvSamples, Fault, PacketError, PacketParser, PacketSamples};
-use crate::profile::{AccelerationStream, PacketLayout, RangeStream, TimeColumn};
-use crate::sample::Sample;
+use crate::parse::{
+    Converter, CsvLayout, CsvSamples, Fault, PacketError, PacketParser, PacketSamples, RawBlock, names_zone,
+};
+use crate::profile::{AccelerationStream, CsvFormat, Epoch, PacketLayout, RangeStream, RowTime, Step, TimeUnit};
+use crate::timeline::Clock;
 
-/// How the samples of a stream lie in its files.
+/// Longer steps between samples are gaps: half a second, or three samples of a slow sensor.
+const SHORTEST_GAP_S: f64 = 0.5;
+const GAP_SAMPLES: f64 = 3.0;
+
+/// How the samples of a stream lie in its files, and what its clock means.
 #[derive(Debug, Clone)]
-pub(crate) enum Layout {
+pub(crate) struct Layout {
+    files: FileLayout,
+    epoch: Epoch,
+    wrap_ns: Option<i128>,
+    pub step: Step,
+    pub rate_hz: f64,
+    pub gap_s: f64,
+    /// Names of the channels that are carried along.
+    pub extra: Vec<String>,
+}
+
+#[derive(Debug, Clone)]
+enum FileLayout {
     Packets(PacketParser),
-    Csv { time: TimeColumn, values: Vec<String>, delimiter: u8, converter: Converter },
+    Csv(CsvLayout),
+}
+
+/// What all streams of a profile say.
+struct Common<'p> {
+    rate_hz: f64,
+    gap_s: Option<f64>,
+    extra: &'p [String],
+    converter: Converter,
 }
 
 impl Layout {
     pub fn of_acceleration(stream: &AccelerationStream) -> Result<Self, PacketError> {
-        let converter = Converter::from(stream);
+        let common = Common {
+            rate_hz: stream.rate_hz,
+            gap_s: stream.gap_s,
+            extra: &stream.extra,
+            converter: Converter::from(stream),
+        };
         if let Some(csv) = &stream.csv {
             let values = vec![csv.x.clone(), csv.y.clone(), csv.z.clone()];
-            return Self::csv(&csv.time, values, csv.delimiter, converter);
+            return Ok(Self::csv(&csv.format, &csv.time, values, common));
         }
-        Self::packets(stream.packets.as_ref(), stream.rate_hz, converter)
+        Self::packets(stream.packets.as_ref(), common)
     }
 
     pub fn of_range(stream: &RangeStream) -> Result<Self, PacketError> {
-        let converter = Converter::from(stream);
+        let common = Common {
+            rate_hz: stream.rate_hz,
+            gap_s: stream.gap_s,
+            extra: &stream.extra,
+            converter: Converter::from(stream),
+        };
         if let Some(csv) = &stream.csv {
-            return Self::csv(&csv.time, vec![csv.range.clone()], csv.delimiter, converter);
+            return Ok(Self::csv(&csv.format, &csv.time, vec![csv.range.clone()], common));
         }
-        Self::packets(stream.packets.as_ref(), stream.rate_hz, converter)
+        Self::packets(stream.packets.as_ref(), common)
     }
 
-    fn packets(layout: Option<&PacketLayout>, rate_hz: f64, converter: Converter) -> Result<Self, PacketError> {
-        let layout = layout.ok_or(PacketError::Layout("packets or csv"))?;
-        PacketParser::new(layout, rate_hz, converter).map(Self::Packets)
+    fn packets(layout: Option<&PacketLayout>, common: Common<'_>) -> Result<Self, PacketError> {
+        let layout = layout.ok_or_else(|| PacketError::Layout("packets, csv or cwa".to_owned()))?;
+        let parser = PacketParser::new(layout, common.extra, common.converter.clone())?;
+        let wrap_ns = wrap_ns(layout.stamp.wrap_bits, layout.stamp.unit);
+        Ok(Self::new(FileLayout::Packets(parser), layout.stamp.epoch, wrap_ns, layout.step, &common))
     }
 
-    fn csv(time: &TimeColumn, values: Vec<String>, delimiter: char, converter: Converter) -> Result<Self, PacketError> {
-        let delimiter = u8::try_from(delimiter).map_err(|_| PacketError::Layout("an ASCII delimiter"))?;
-        Ok(Self::Csv { time: time.clone(), values, delimiter, converter })
+    fn csv(format: &CsvFormat, time: &RowTime, values: Vec<String>, common: Common<'_>) -> Self {
+        let epoch = match &time.format {
+            Some(format) if !names_zone(format) => Epoch::Local,
+            Some(_) => Epoch::Unix,
+            None => time.epoch,
+        };
+        let wrap_ns = wrap_ns(time.wrap_bits, time.unit.unwrap_or_default());
+        let layout = CsvLayout {
+            format: format.clone(),
+            time: time.clone(),
+            values,
+            extra: common.extra.to_vec(),
+            converter: common.converter.clone(),
+        };
+        let common = Common { rate_hz: time.rows_per_s.unwrap_or(common.rate_hz), ..common };
+        Self::new(FileLayout::Csv(layout), epoch, wrap_ns, Step::Nominal, &common)
+    }
+
+    fn new(files: FileLayout, epoch: Epoch, wrap_ns: Option<i128>, step: Step, common: &Common<'_>) -> Self {
+        let gap_s = common.gap_s.unwrap_or(SHORTEST_GAP_S.max(GAP_SAMPLES / common.rate_hz));
+        Self { files, epoch, wrap_ns, step, rate_hz: common.rate_hz, gap_s, extra: common.extra.to_vec() }
+    }
+
+    /// A clock for this stream.
+    pub fn clock(&self, zone: &TimeZone) -> Clock {
+        Clock::new(self.epoch, self.wrap_ns, zone.clone())
+    }
+
+    /// Whether stamps say nothing of the order of files: the counter may start anew between them.
+    pub fn is_wrapping(&self) -> bool {
+        self.wrap_ns.is_some()
+    }
+
+    /// Whether rows are spread evenly over a declared time, so that they must be counted first: over how many seconds.
+    pub fn rows_over_s(&self) -> Option<f64> {
+        match &self.files {
+            FileLayout::Csv(csv) => csv.time.rows_over_s,
+            FileLayout::Packets(_) => None,
+        }
     }
 }
 
-/// Streams the samples of one file.
-pub(crate) enum Decoder<R> {
+fn wrap_ns(bits: Option<u32>, unit: TimeUnit) -> Option<i128> {
+    bits.map(|bits| (1_i128 << bits.min(63)) * i128::from(unit.ns()))
+}
+
+/// Streams the packets, or batches of rows, of one file.
+pub(crate) enum Decoder<R: Read> {
     Packets(Box<PacketSamples<R>>),
     Csv(Box<CsvSamples<R>>),
 }
 
 impl<R: Read> Decoder<R> {
     pub fn new(reader: R, layout: &Layout) -> Self {
-        match layout {
-            Layout::Packets(parser) => Self::Packets(Box::new(PacketSamples::new(reader, parser.clone()))),
-            Layout::Csv { time, values, delimiter, converter } => {
-                let csv = CsvSamples::new(reader, time.clone(), values.clone(), *delimiter, converter.clone());
-                Self::Csv(Box::new(csv))
+        match &layout.files {
+            FileLayout::Packets(parser) => {
+                let is_absolute = layout.epoch != Epoch::Boot;
+                Self::Packets(Box::new(PacketSamples::new(reader, parser.clone(), is_absolute)))
             }
+            FileLayout::Csv(csv) => Self::Csv(Box::new(CsvSamples::new(reader, csv.clone()))),
         }
     }
 
-    /// Appends the samples of the next packet or rows. False at the end of the file.
-    pub fn next_batch(&mut self, out: &mut Vec<Sample>) -> bool {
+    /// The next packet or batch. None at the end of the file.
+    pub fn next_block(&mut self) -> Option<RawBlock> {
         match self {
-            Self::Packets(packets) => packets.next_batch(out),
-            Self::Csv(csv) => csv.next_batch(out),
+            Self::Packets(packets) => packets.next_block(),
+            Self::Csv(csv) => csv.next_block(),
         }
-    }
-
-    /// The time of the first sample.
-    pub fn first_time(mut self) -> Option<UtcNs> {
-        let mut samples = Vec::new();
-        while samples.is_empty() && self.next_batch(&mut samples) {}
-        samples.first().map(Sample::time)
     }
 
     pub fn finish(self) -> (Vec<Fault>, R) {

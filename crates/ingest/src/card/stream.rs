@@ -1,28 +1,28 @@
 //! All samples of one sensor of a card.
 
 use std::collections::VecDeque;
-use std::fs::File;
 
 use model::Problem;
 
 use super::decoder::{Decoder, Layout};
 use super::hashing::{HashingReader, Inputs, open_hashing};
+use super::sensor_files::{Anchoring, count_rows, in_order};
 use super::{CardFile, Place};
-use crate::parse::{Fault, PacketError};
-use crate::profile::{AccelerationStream, RangeStream};
+use crate::parse::Fault;
 use crate::progress::IngestProgress;
-use crate::sample::Sample;
+use crate::timeline::{Block, ClockError, Line, Stepper, StreamFacts};
 
-/// Streams the samples of one sensor through its files, a packet or some rows at a time. Files come in the order of their
-/// first samples; times may still go back where files overlap.
+/// Streams the blocks of one sensor in order of time, files in the order of their first samples.
 pub(crate) struct Stream<'a> {
     layout: Layout,
     place: &'a Place,
     progress: &'a dyn IngestProgress,
+    anchoring: Anchoring<'a>,
     waiting: VecDeque<CardFile>,
     current: Option<OpenFile<'a>>,
-    batch: Vec<Sample>,
-    next: usize,
+    stepper: Stepper,
+    line: Line,
+    at_end: bool,
     pub inputs: Inputs,
     pub problems: Vec<Problem>,
 }
@@ -30,85 +30,111 @@ pub(crate) struct Stream<'a> {
 struct OpenFile<'a> {
     file: CardFile,
     decoder: Decoder<HashingReader<'a>>,
-    has_samples: bool,
+    /// Where rows are spread over a declared time: how many are a second.
+    rows_per_s: Option<f64>,
+    samples: u64,
+    missing: u64,
+    unclocked: u64,
+    clock_error: Option<ClockError>,
 }
 
 impl<'a> Stream<'a> {
-    pub fn acceleration(
-        stream: &AccelerationStream,
+    pub fn new(
+        layout: Layout,
         files: Vec<CardFile>,
+        anchoring: Anchoring<'a>,
         place: &'a Place,
         progress: &'a dyn IngestProgress,
-    ) -> Result<Self, PacketError> {
-        Layout::of_acceleration(stream).map(|layout| Self::new(layout, files, place, progress))
-    }
-
-    pub fn range(
-        stream: &RangeStream,
-        files: Vec<CardFile>,
-        place: &'a Place,
-        progress: &'a dyn IngestProgress,
-    ) -> Result<Self, PacketError> {
-        Layout::of_range(stream).map(|layout| Self::new(layout, files, place, progress))
-    }
-
-    fn new(layout: Layout, mut files: Vec<CardFile>, place: &'a Place, progress: &'a dyn IngestProgress) -> Self {
-        let first_time = |file: &CardFile| Decoder::new(File::open(&file.path).ok()?, &layout).first_time();
-        files.sort_by_cached_key(|file| (first_time(file), file.name.clone()));
-        Self {
+    ) -> Self {
+        let (files, twice) = in_order(files, &layout, &anchoring);
+        let mut stream = Self {
+            stepper: Stepper::new(layout.clock(anchoring.zone), layout.step, layout.rate_hz),
+            line: Line::new(layout.rate_hz, layout.gap_s),
             layout,
             place,
             progress,
+            anchoring,
             waiting: files.into(),
             current: None,
-            batch: Vec::new(),
-            next: 0,
+            at_end: false,
             inputs: Inputs::default(),
             problems: Vec::new(),
+        };
+        for (file, same_as) in &twice {
+            stream.pass_over(file, same_as);
         }
+        stream
     }
 
-    /// The next sample, without taking it.
-    pub fn peek(&mut self) -> Option<Sample> {
-        while self.next >= self.batch.len() {
-            self.next = 0;
-            self.batch.clear();
-            if !self.fill() {
+    /// Names of the channels that are carried along.
+    pub fn extra(&self) -> &[String] {
+        &self.layout.extra
+    }
+
+    /// The next block.
+    pub fn next_block(&mut self) -> Option<Block> {
+        loop {
+            if let Some(block) = self.line.pop() {
+                return Some(block);
+            }
+            if self.at_end {
                 return None;
             }
+            self.read_on();
         }
-        self.batch.get(self.next).copied()
     }
 
-    /// Takes the sample that [`Self::peek`] shows.
-    pub fn advance(&mut self) {
-        self.next += 1;
+    /// What the sensor's clock did.
+    pub fn finish(self) -> StreamFacts {
+        self.line.finish()
     }
 
-    /// Reads on: into the batch, or to the next file. False after the last file.
-    fn fill(&mut self) -> bool {
-        if let Some(open) = &mut self.current {
-            if open.decoder.next_batch(&mut self.batch) {
-                open.has_samples |= !self.batch.is_empty();
-                return true;
+    fn read_on(&mut self) {
+        let Some(open) = &mut self.current else {
+            match self.waiting.pop_front() {
+                Some(file) => self.open(file),
+                None => {
+                    self.stepper.finish().into_iter().for_each(|block| self.line.push(block));
+                    self.line.end();
+                    self.at_end = true;
+                }
             }
-            // The last call of a batch may still have given samples.
-            open.has_samples |= !self.batch.is_empty();
+            return;
+        };
+        let Some(mut raw) = open.decoder.next_block() else {
             self.close();
-            return true;
+            return;
+        };
+        raw.declared_rate_hz = open.rows_per_s.or(raw.declared_rate_hz);
+        open.missing += raw.missing;
+        let samples = raw.len() as u64;
+        match self.stepper.push(raw) {
+            Ok(block) => {
+                open.samples += samples;
+                block.into_iter().for_each(|block| self.line.push(block));
+            }
+            Err(error) => {
+                open.unclocked += samples;
+                open.clock_error.get_or_insert(error);
+            }
         }
-        let Some(file) = self.waiting.pop_front() else { return false };
+    }
+
+    fn open(&mut self, file: CardFile) {
+        self.stepper.set_anchor(self.anchoring.of_file(&file));
+        #[expect(clippy::cast_precision_loss, reason = "a file has far fewer than 2^53 rows")]
+        let rows_per_s = self.layout.rows_over_s().map(|seconds| count_rows(&file, &self.layout) as f64 / seconds);
         match open_hashing(&file, self.progress) {
             Ok(reader) => {
                 let decoder = Decoder::new(reader, &self.layout);
-                self.current = Some(OpenFile { file, decoder, has_samples: false });
+                let (samples, missing, unclocked, clock_error) = (0, 0, 0, None);
+                self.current = Some(OpenFile { file, decoder, rows_per_s, samples, missing, unclocked, clock_error });
             }
             Err(error) => {
                 self.inputs.add_unreadable(&file);
                 self.report(&file.name, &Fault::Unreadable { offset: 0, message: error.to_string() });
             }
         }
-        true
     }
 
     fn close(&mut self) {
@@ -119,15 +145,30 @@ impl<'a> Stream<'a> {
         {
             faults.push(Fault::Unreadable { offset: 0, message: error.to_string() });
         }
-        if faults.is_empty() && !open.has_samples {
+        if let Some(error) = open.clock_error {
+            faults.push(Fault::NoTime { samples: open.unclocked, first: error.to_string() });
+        }
+        if faults.is_empty() && open.samples == 0 && open.missing == 0 {
             faults.push(Fault::NoSamples);
         }
+        self.line.facts_mut().missing_samples += open.missing;
         for fault in &faults {
+            self.line.facts_mut().lost_bytes += fault.lost_bytes();
             self.report(&open.file.name, fault);
         }
     }
 
     fn report(&mut self, file: &str, fault: &Fault) {
         self.problems.push(self.place.problem(fault.code(), file, fault.to_string(), fault.remedy()));
+    }
+
+    /// A file that is there twice is hashed, like every input, and not used.
+    fn pass_over(&mut self, file: &CardFile, same_as: &CardFile) {
+        match open_hashing(file, self.progress).and_then(|reader| self.inputs.add(file, reader)) {
+            Ok(()) => {}
+            Err(_) => self.inputs.add_unreadable(file),
+        }
+        let fact = format!("the file is the same as {}, byte for byte; it is used once", same_as.name);
+        self.problems.push(self.place.note("duplicate_file", &file.name, fact, "remove one of the two"));
     }
 }

@@ -1,5 +1,6 @@
 //! From a card to an MCAP file.
 
+mod clock_problems;
 mod error;
 mod run;
 
@@ -7,6 +8,7 @@ pub use error::IngestError;
 
 use std::path::{Path, PathBuf};
 
+use jiff::Timestamp;
 use jiff::tz::TimeZone;
 use model::CameraSpec;
 
@@ -30,6 +32,8 @@ pub struct SessionSource {
     pub camera_spec: CameraSpec,
     /// For image times that name no zone.
     pub time_zone: TimeZone,
+    /// When a boot-relative clock was zero, where the profile says that the session tells.
+    pub clock_zero_utc: Option<Timestamp>,
     /// Program and version, for the file's metadata.
     pub program: String,
 }

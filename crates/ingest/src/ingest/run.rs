@@ -2,18 +2,19 @@
 
 use std::path::Path;
 
+use jiff::Timestamp;
 use model::{Camera, FrameReason, Problem, UtcNs};
 
+use super::clock_problems::clock_problems;
 use super::{IngestError, SessionSource};
-use crate::card::{Card, Inputs, Patterns, Place, Stream, TakenImage, read_image};
+use crate::card::{Anchoring, Card, CardFile, Inputs, Layout, Patterns, Place, Stream, TakenImage, read_image};
 use crate::key::{self, INGEST_VERSION};
 use crate::mcap_file::metadata::Facts;
 use crate::mcap_file::{SessionWriter, WriteError};
 use crate::profile::Images;
 use crate::progress::IngestProgress;
-use crate::sample::Sample;
 use crate::summary::{Counts, DroppedImage, ImageEntry, IngestSummary};
-use crate::timeline::Timeline;
+use crate::timeline::{Block, StreamFacts, Timeline};
 
 /// The ingest of one session under way.
 pub(super) struct Run<'a> {
@@ -25,6 +26,7 @@ pub(super) struct Run<'a> {
     pub inputs: Inputs,
     pub problems: Vec<Problem>,
     counts: Counts,
+    timeline: Timeline,
     dropped: Vec<DroppedImage>,
 }
 
@@ -44,51 +46,68 @@ impl<'a> Run<'a> {
             inputs: Inputs::default(),
             problems: Vec::new(),
             counts: Counts::default(),
+            timeline: Timeline::default(),
             dropped: Vec::new(),
         })
     }
 
-    /// Writes the samples of all sensors, merged by time.
+    /// Writes the samples of all sensors, one sensor after the other.
     pub fn sensors(&mut self, card: &Card) -> Result<(), IngestError> {
-        let mut streams = self.streams(card)?;
-        loop {
-            let next = streams.iter_mut().filter_map(|stream| stream.peek().map(|sample| (sample, stream)));
-            let Some((sample, stream)) = next.min_by_key(|(sample, _)| sample.time()) else { break };
-            stream.advance();
-            match sample {
-                Sample::Acceleration { .. } => self.counts.acceleration += 1,
-                Sample::Range { .. } => self.counts.range += 1,
+        let profile = &self.source.profile;
+        let acceleration = match &profile.acceleration {
+            Some(declared) => {
+                let files = self.files_of("accelerometer", &declared.files, card)?;
+                Some(self.sensor(Layout::of_acceleration(declared)?, files, SessionWriter::acceleration)?)
             }
-            self.writer.sample(&sample).map_err(|error| write_error(self.out, error))?;
-        }
-        for stream in streams {
-            self.problems.extend(stream.problems);
-            self.inputs.bytes += stream.inputs.bytes;
-            self.inputs.sha256.extend(stream.inputs.sha256);
-        }
+            None => self.undeclared("acceleration"),
+        };
+        let range = match &profile.range {
+            Some(declared) => {
+                let files = self.files_of("range sensor", &declared.files, card)?;
+                Some(self.sensor(Layout::of_range(declared)?, files, SessionWriter::range)?)
+            }
+            None => self.undeclared("range"),
+        };
+        self.counts.acceleration = acceleration.as_ref().map_or(0, |facts| facts.samples);
+        self.counts.range = range.as_ref().map_or(0, |facts| facts.samples);
+        self.timeline = Timeline::new(acceleration, range);
+        self.problems.extend(clock_problems(&self.timeline, self.place));
         Ok(())
     }
 
-    fn streams(&mut self, card: &Card) -> Result<Vec<Stream<'a>>, IngestError> {
-        let profile = &self.source.profile;
-        let mut streams = Vec::new();
-        match &profile.acceleration {
-            Some(declared) => {
-                let files = card.fitting(&Patterns::new(&declared.files).map_err(IngestError::Pattern)?);
-                self.report_absent("accelerometer", &declared.files, files.is_empty());
-                streams.push(Stream::acceleration(declared, files, self.place, self.progress)?);
-            }
-            None => self.report_undeclared("acceleration"),
+    /// Writes the samples of one sensor.
+    fn sensor(
+        &mut self,
+        layout: Layout,
+        files: Vec<CardFile>,
+        write: impl Fn(&mut SessionWriter, Block, &[String]) -> Result<(), WriteError>,
+    ) -> Result<StreamFacts, IngestError> {
+        let source = self.source;
+        let anchoring = Anchoring {
+            spec: source.profile.clock.as_ref(),
+            session: source.clock_zero_utc.and_then(utc_ns),
+            zone: &source.time_zone,
+        };
+        let mut stream = Stream::new(layout, files, anchoring, self.place, self.progress);
+        while let Some(block) = stream.next_block() {
+            write(&mut self.writer, block, stream.extra()).map_err(|error| write_error(self.out, error))?;
         }
-        match &profile.range {
-            Some(declared) => {
-                let files = card.fitting(&Patterns::new(&declared.files).map_err(IngestError::Pattern)?);
-                self.report_absent("range sensor", &declared.files, files.is_empty());
-                streams.push(Stream::range(declared, files, self.place, self.progress)?);
-            }
-            None => self.report_undeclared("range"),
-        }
-        Ok(streams)
+        self.writer.end_of_sensor().map_err(|error| write_error(self.out, error))?;
+        self.problems.append(&mut stream.problems);
+        self.inputs.bytes += stream.inputs.bytes;
+        self.inputs.sha256.append(&mut stream.inputs.sha256);
+        Ok(stream.finish())
+    }
+
+    fn files_of(&mut self, sensor: &str, patterns: &[String], card: &Card) -> Result<Vec<CardFile>, IngestError> {
+        let files = card.fitting(&Patterns::new(patterns).map_err(IngestError::Pattern)?);
+        self.report_absent(sensor, patterns, files.is_empty());
+        Ok(files)
+    }
+
+    fn undeclared<T>(&mut self, table: &str) -> Option<T> {
+        self.report_undeclared(table);
+        None
     }
 
     /// Writes the images in the order of their names; returns what was written, in that order.
@@ -130,7 +149,7 @@ impl<'a> Run<'a> {
             key: key::key_of(self.source, &self.inputs)?,
             time_zone: key::zone_name(&self.source.time_zone),
             counts: self.counts,
-            timeline: Timeline::default(),
+            timeline: self.timeline,
             profile: self.source.profile.clone(),
             camera: self.source.camera_spec.clone(),
             inputs_sha256: self.inputs.sha256,
@@ -176,6 +195,10 @@ impl<'a> Run<'a> {
             self.problems.push(self.place.problem(reason.code(), &first.file, fact, remedy_of(*reason)));
         }
     }
+}
+
+fn utc_ns(time: Timestamp) -> Option<UtcNs> {
+    i64::try_from(time.as_nanosecond()).ok().map(UtcNs)
 }
 
 fn remedy_of(reason: FrameReason) -> &'static str {

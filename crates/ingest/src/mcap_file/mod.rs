@@ -9,6 +9,8 @@ pub(crate) use writer::{SessionWriter, WriteError};
 
 /// Topics.
 pub(crate) mod topic {
+    /// Channels that are carried along: this and their name.
+    pub const EXTRA: &str = "/extra/";
     pub const ACCELERATION: &str = "/imu/acceleration";
     pub const RANGE: &str = "/range";
     pub const IMAGE: &str = "/camera/image";
@@ -19,7 +21,7 @@ pub(crate) mod topic {
 /// The frame that images and calibration refer to: x right, y down, z forward.
 pub(crate) const CAMERA_FRAME: &str = "camera";
 
-/// Sensor messages gather to about this before compression.
+/// Sensor messages gather to about this.
 pub(crate) const SENSOR_CHUNK_BYTES: u64 = 1024 * 1024;
 
 /// No chunk of ours is larger: one image, or sensor messages.

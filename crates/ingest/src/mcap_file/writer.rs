@@ -6,24 +6,20 @@ use std::path::{Path, PathBuf};
 
 use foxglove::messages::{CompressedImage, Timestamp};
 use mcap::records::{MessageHeader, Metadata};
-use mcap::{Compression, McapError, WriteOptions, Writer};
+use mcap::{McapError, WriteOptions, Writer};
 use model::{Camera, UtcNs};
 use tempfile::NamedTempFile;
 
 use super::calibration::calibration;
-use super::messages::{Acceleration, ImageFile, Range};
+use super::messages::{AccelerationBlock, ExtraBlock, ImageFile, RangeBlock};
 use super::metadata::Records;
 use super::{CAMERA_FRAME, SENSOR_CHUNK_BYTES, topic};
 use crate::parse::image_header::Encoding;
-use crate::sample::Sample;
 use crate::summary::ImageEntry;
+use crate::timeline::{Block, Times};
 
 /// Fixed, so that equal input gives equal bytes whatever the version of the library.
 const LIBRARY: &str = "aim-batch-ingest";
-
-/// A sensor chunk is closed where time goes back by more, so that no chunk spans the whole session because of one wrong
-/// stamp: the reader holds all chunks that overlap a time.
-const LONGEST_STEP_BACK_S: f64 = 1.0;
 
 /// Why the MCAP file cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -36,19 +32,19 @@ pub enum WriteError {
     Mcap(#[from] McapError),
     /// A message has no schema: a defect of the program.
     #[error("the message type of {0} has no schema")]
-    NoSchema(&'static str),
+    NoSchema(String),
 }
 
-/// Sensor messages come first, in chunks of their own, then one chunk per image, then the list of images: a pass over the
-/// sensors never reads images.
+/// Sensor messages come first, each sensor in chunks of its own, then one chunk per image, then the list of images: a pass
+/// over a sensor reads nothing else.
 pub(crate) struct SessionWriter {
     mcap: Writer<BufWriter<NamedTempFile>>,
-    channels: BTreeMap<&'static str, u16>,
+    channels: BTreeMap<String, u16>,
     out: PathBuf,
     encoded: Vec<u8>,
     first_time: Option<UtcNs>,
     last_time: Option<UtcNs>,
-    sequences: BTreeMap<&'static str, u32>,
+    sequences: BTreeMap<u16, u32>,
 }
 
 impl SessionWriter {
@@ -64,10 +60,11 @@ impl SessionWriter {
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
         let file = BufWriter::with_capacity(256 * 1024, builder.tempfile_in(folder)?);
-        // JPEG does not shrink; lz4 costs little on it, and halves sensor messages.
+        // JPEG does not shrink, and is most of a session; chunks have checksums, so the whole needs none.
         let options = WriteOptions::new()
-            .compression(Some(Compression::Lz4))
+            .compression(None)
             .chunk_size(Some(SENSOR_CHUNK_BYTES))
+            .calculate_data_section_crc(false)
             .library(LIBRARY);
         Ok(Self {
             mcap: options.create(file)?,
@@ -85,20 +82,52 @@ impl SessionWriter {
         self.first_time
     }
 
-    pub fn sample(&mut self, sample: &Sample) -> Result<(), WriteError> {
-        let time = sample.time();
-        if self.last_time.is_some_and(|last| last.seconds_since(time) > LONGEST_STEP_BACK_S) {
+    /// Writes samples of the accelerometer.
+    pub fn acceleration(&mut self, block: Block, extra: &[String]) -> Result<(), WriteError> {
+        self.keep_in_order(&block.times)?;
+        let time = block.times.first();
+        let (step_ns, offset_ns) = wire_times(&block.times);
+        self.carry(time, (step_ns, &offset_ns), block.extra, extra)?;
+        let Ok([x_g, y_g, z_g]) = <[Vec<f32>; 3]>::try_from(block.channels) else { return Ok(()) };
+        self.write(topic::ACCELERATION, time, &AccelerationBlock { step_ns, offset_ns, x_g, y_g, z_g }).map(|_| ())
+    }
+
+    /// Writes samples of the range sensor.
+    pub fn range(&mut self, block: Block, extra: &[String]) -> Result<(), WriteError> {
+        self.keep_in_order(&block.times)?;
+        let time = block.times.first();
+        let (step_ns, offset_ns) = wire_times(&block.times);
+        self.carry(time, (step_ns, &offset_ns), block.extra, extra)?;
+        let Ok([range_mm]) = <[Vec<f32>; 1]>::try_from(block.channels) else { return Ok(()) };
+        self.write(topic::RANGE, time, &RangeBlock { step_ns, offset_ns, range_mm }).map(|_| ())
+    }
+
+    /// The samples of a sensor are at their end.
+    pub fn end_of_sensor(&mut self) -> Result<(), WriteError> {
+        self.last_time = None;
+        Ok(self.mcap.flush()?)
+    }
+
+    fn carry(
+        &mut self,
+        time: UtcNs,
+        (step_ns, offset_ns): (f64, &[u64]),
+        columns: Vec<Vec<f32>>,
+        names: &[String],
+    ) -> Result<(), WriteError> {
+        for (value, name) in columns.into_iter().zip(names) {
+            let message = ExtraBlock { step_ns, offset_ns: offset_ns.to_vec(), value };
+            self.write(&format!("{}{name}", topic::EXTRA), time, &message)?;
+        }
+        Ok(())
+    }
+
+    /// Closes the chunk where time goes back.
+    fn keep_in_order(&mut self, times: &Times) -> Result<(), WriteError> {
+        if self.last_time.is_some_and(|last| times.first() < last) {
             self.mcap.flush()?;
         }
-        self.last_time = Some(time);
-        match *sample {
-            Sample::Acceleration { time, g: [x_g, y_g, z_g] } => {
-                self.write(topic::ACCELERATION, time, &Acceleration { x_g, y_g, z_g })?;
-            }
-            Sample::Range { time, mm } => {
-                self.write(topic::RANGE, time, &Range { range_mm: mm })?;
-            }
-        }
+        self.last_time = Some(times.last());
         Ok(())
     }
 
@@ -151,12 +180,12 @@ impl SessionWriter {
 
     fn write<M: prost::Message + foxglove::Encode>(
         &mut self,
-        topic: &'static str,
+        topic: &str,
         time: UtcNs,
         message: &M,
     ) -> Result<u32, WriteError> {
         let channel_id = self.channel::<M>(topic)?;
-        let sequence = self.sequences.entry(topic).or_default();
+        let sequence = self.sequences.entry(channel_id).or_default();
         let log_time = time.0.max(0).unsigned_abs(); // ingest refuses times before 1970
         let header = MessageHeader { channel_id, sequence: *sequence, log_time, publish_time: log_time };
         *sequence = sequence.wrapping_add(1);
@@ -167,15 +196,26 @@ impl SessionWriter {
         Ok(header.sequence)
     }
 
-    fn channel<M: foxglove::Encode>(&mut self, topic: &'static str) -> Result<u16, WriteError> {
+    fn channel<M: foxglove::Encode>(&mut self, topic: &str) -> Result<u16, WriteError> {
         if let Some(id) = self.channels.get(topic) {
             return Ok(*id);
         }
-        let schema = M::get_schema().ok_or(WriteError::NoSchema(topic))?;
+        let schema = M::get_schema().ok_or(WriteError::NoSchema(topic.to_owned()))?;
         let schema_id = self.mcap.add_schema(&schema.name, &schema.encoding, &schema.data)?;
         let id = self.mcap.add_channel(schema_id, topic, &M::get_message_encoding(), &BTreeMap::new())?;
-        self.channels.insert(topic, id);
+        self.channels.insert(topic.to_owned(), id);
         Ok(id)
+    }
+}
+
+/// Times as sensor messages have them: a step, or an offset from the first for each.
+fn wire_times(times: &Times) -> (f64, Vec<u64>) {
+    match times {
+        Times::Even { step_ns, .. } => (*step_ns, Vec::new()),
+        Times::Each(times) => {
+            let first = times.first().map_or(0, |first| first.0);
+            (0.0, times.iter().map(|time| time.0.abs_diff(first)).collect())
+        }
     }
 }
 

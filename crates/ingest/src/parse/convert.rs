@@ -1,11 +1,8 @@
-//! From counts to samples in physical units.
-
-use model::UtcNs;
+//! From counts to physical units.
 
 use crate::profile::{AccelerationStream, Axis, RangeStream};
-use crate::sample::Sample;
 
-/// From counts to samples in physical units and the device frame.
+/// From counts to physical units and the device frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Converter {
     /// Counts of an accelerometer.
@@ -46,15 +43,25 @@ impl Converter {
         }
     }
 
-    /// The sample. `counts`: sensor x, y, z of an accelerometer; the first one of a range sensor.
+    /// The channels in physical units: x, y, z in g (device frame), or the range in mm. `counts`: one list per channel of
+    /// [`Self::channels`], all of one length.
     #[must_use]
-    pub fn sample(&self, time: UtcNs, counts: [f64; 3]) -> Sample {
+    pub fn convert(&self, counts: &[Vec<f64>]) -> Vec<Vec<f32>> {
         match self {
             Self::Acceleration { g_per_count, zero_g_counts, axes } => {
-                let in_sensor: [f64; 3] = std::array::from_fn(|i| (counts[i] - zero_g_counts[i]) * g_per_count);
-                Sample::Acceleration { time, g: axes.map(|axis| axis.of(in_sensor)) }
+                let along = |axis: &Axis| {
+                    let (index, sign) = (axis.index(), axis.sign());
+                    let zero = zero_g_counts[index];
+                    scaled(counts.get(index), |count| (count - zero) * (sign * g_per_count))
+                };
+                axes.iter().map(along).collect()
             }
-            Self::Range { mm_per_count } => Sample::Range { time, mm: counts[0] * mm_per_count },
+            Self::Range { mm_per_count } => vec![scaled(counts.first(), |count| count * mm_per_count)],
         }
     }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "24 bits hold every count of a 16-bit sensor")]
+fn scaled(counts: Option<&Vec<f64>>, scale: impl Fn(f64) -> f64) -> Vec<f32> {
+    counts.into_iter().flatten().map(|count| scale(*count) as f32).collect()
 }

@@ -1,135 +1,247 @@
-//! A CSV file with a line of column names, then one sample per row.
+//! A CSV file, one sample per row.
 
-use std::io::{Error, ErrorKind, Read, Result as IoResult};
+use std::io::{BufRead, BufReader, Error, ErrorKind, Read, Result as IoResult};
 
-use model::UtcNs;
+use jiff::fmt::strtime::BrokenDownTime;
+use jiff::tz::TimeZone;
 
+use super::raw::{RawBlock, Stamps};
 use super::{Converter, Fault, decimal};
-use crate::profile::TimeColumn;
-use crate::sample::Sample;
+use crate::profile::{CsvFormat, RowTime};
 
+/// Rows per block.
 const BATCH_ROWS: usize = 1024;
 /// A row of numbers is far shorter; a block of zeros on a damaged card has no line ends at all.
 const LONGEST_ROW_BYTES: usize = 64 * 1024;
-
 /// Columns that a message lists.
 const SHOWN_COLUMNS: usize = 30;
 
+/// What to read from a CSV file.
+#[derive(Debug, Clone)]
+pub struct CsvLayout {
+    /// What the file looks like.
+    pub format: CsvFormat,
+    /// What gives a row its time.
+    pub time: RowTime,
+    /// Columns for [`Converter::channels`], in that order.
+    pub values: Vec<String>,
+    /// Columns to carry along.
+    pub extra: Vec<String>,
+    /// To physical units.
+    pub converter: Converter,
+}
+
 /// Streams the samples of a CSV file, a batch of rows at a time. A row in which a value is empty or NaN is a missing
 /// sample.
-pub struct CsvSamples<R> {
-    csv: csv::Reader<RowLimit<R>>,
+pub struct CsvSamples<R: Read> {
+    csv: csv::Reader<RowLimit<BufReader<R>>>,
+    layout: CsvLayout,
     row: csv::ByteRecord,
     columns: Option<Columns>,
-    time: TimeColumn,
-    value_columns: Vec<String>,
-    converter: Converter,
+    rows: u64,
     bad_rows: u64,
+    bad_bytes: u64,
     first_bad_row: Option<(u64, String)>,
     end: Option<Fault>,
 }
 
 /// Where in a row the columns are.
+#[derive(Clone)]
 struct Columns {
-    time: usize,
+    time: Option<usize>,
     values: Vec<usize>,
+    extra: Vec<usize>,
+}
+
+/// A batch as it grows.
+#[derive(Default)]
+struct Batch {
+    stamps: Vec<i64>,
+    counts: Vec<Vec<f64>>,
+    extra: Vec<Vec<f32>>,
+    /// Rows taken by number, where there is no time column.
+    present: Vec<u32>,
+    missing: u64,
 }
 
 impl<R: Read> CsvSamples<R> {
-    /// The rows in `reader`. `value_columns`: names of the columns for [`Converter::channels`], in that order.
-    pub fn new(reader: R, time: TimeColumn, value_columns: Vec<String>, delimiter: u8, converter: Converter) -> Self {
+    /// The rows in `reader`.
+    pub fn new(reader: R, layout: CsvLayout) -> Self {
+        let mut inner = BufReader::with_capacity(256 * 1024, reader);
+        let end = skip_lines(&mut inner, layout.format.skip_lines).err();
+        let end = end.map(|error| Fault::Unreadable { offset: 0, message: error.to_string() });
         let csv = csv::ReaderBuilder::new()
-            .has_headers(true)
-            .delimiter(delimiter)
+            .has_headers(layout.format.header)
+            .delimiter(u8::try_from(layout.format.delimiter).unwrap_or(b','))
             .flexible(true)
-            .trim(csv::Trim::All)
-            .from_reader(RowLimit { inner: reader, bytes: 0 });
+            .from_reader(RowLimit { inner, bytes: 0 });
         let row = csv::ByteRecord::new();
-        Self { csv, row, columns: None, time, value_columns, converter, bad_rows: 0, first_bad_row: None, end: None }
+        Self { csv, layout, row, columns: None, rows: 0, bad_rows: 0, bad_bytes: 0, first_bad_row: None, end }
     }
 
-    /// Appends the samples of the next rows. False when there are no more rows.
-    pub fn next_batch(&mut self, out: &mut Vec<Sample>) -> bool {
+    /// The next rows. None when there are no more.
+    pub fn next_block(&mut self) -> Option<RawBlock> {
+        if self.end.is_some() {
+            return None;
+        }
         let columns = match self.columns.take().map_or_else(|| self.find_columns(), Ok) {
             Ok(columns) => columns,
             Err(fault) => {
                 self.end = Some(fault);
-                return false;
+                return None;
             }
         };
-        let mut more = true;
-        for _ in 0..BATCH_ROWS {
-            more = match self.csv.read_byte_record(&mut self.row) {
-                Ok(more) => more,
-                Err(error) => {
-                    self.end = Some(fault_of(&error, self.csv.position()));
-                    false
-                }
-            };
-            if !more {
-                break;
-            }
-            self.csv.get_mut().bytes = 0;
-            match self.sample(&columns) {
-                Ok(sample) => out.extend(sample),
-                Err(fact) => self.note_bad_row(fact),
-            }
-        }
+        let first = self.rows;
+        let mut batch = Batch::default();
+        batch.counts.resize(columns.values.len(), Vec::with_capacity(BATCH_ROWS));
+        batch.extra.resize(columns.extra.len(), Vec::with_capacity(BATCH_ROWS));
+        let read = (0..BATCH_ROWS).take_while(|_| self.read_row(&columns, &mut batch)).count();
         self.columns = Some(columns);
-        more
+        (read > 0).then(|| self.block(batch, first, read))
     }
 
     /// What was wrong with the file, and the reader.
     pub fn finish(self) -> (Vec<Fault>, R) {
-        let rows = self.bad_rows;
-        let bad_rows = self.first_bad_row.map(|(first_line, first)| Fault::BadRows { rows, first_line, first });
-        (bad_rows.into_iter().chain(self.end).collect(), self.csv.into_inner().inner)
+        let (rows, bytes) = (self.bad_rows, self.bad_bytes);
+        let bad_rows = self.first_bad_row.map(|(first_line, first)| Fault::BadRows { rows, bytes, first_line, first });
+        (bad_rows.into_iter().chain(self.end).collect(), self.csv.into_inner().inner.into_inner())
+    }
+
+    fn block(&self, batch: Batch, first: u64, read: usize) -> RawBlock {
+        let has_all = batch.present.len() == read;
+        let samples = u32::try_from(read).unwrap_or(u32::MAX);
+        let stamps = match self.layout.time.column {
+            Some(_) => Stamps::Each(batch.stamps),
+            None => Stamps::Counted { first, samples, present: (!has_all).then_some(batch.present) },
+        };
+        let channels = self.layout.converter.convert(&batch.counts);
+        let (extra, missing) = (batch.extra, batch.missing);
+        RawBlock { stamps, sequence: None, channels, extra, missing, declared_rate_hz: None }
+    }
+
+    /// Reads a row into the batch. False at the end of the file.
+    fn read_row(&mut self, columns: &Columns, batch: &mut Batch) -> bool {
+        match self.csv.read_byte_record(&mut self.row) {
+            Ok(true) => {}
+            Ok(false) => return false,
+            Err(error) => {
+                self.end = Some(fault_of(&error, self.csv.position()));
+                return false;
+            }
+        }
+        self.csv.get_mut().bytes = 0;
+        let number = u32::try_from(self.rows % BATCH_ROWS as u64).unwrap_or(0);
+        self.rows += 1;
+        match self.sample(columns, batch) {
+            Ok(true) => batch.present.push(number),
+            Ok(false) => batch.missing += 1,
+            Err(fact) => self.note_bad_row(fact),
+        }
+        true
     }
 
     fn find_columns(&mut self) -> Result<Columns, Fault> {
+        let layout = &self.layout;
+        if !layout.format.header {
+            let numbered = |name: &String| {
+                let number = name.strip_prefix('#').and_then(|number| number.parse::<usize>().ok());
+                number.and_then(|number| number.checked_sub(1)).ok_or_else(|| Fault::MissingColumn {
+                    column: name.clone(),
+                    found: "columns by number: #1, #2 and so on".to_owned(),
+                })
+            };
+            return columns(layout, numbered);
+        }
         let header = match self.csv.byte_headers() {
             Ok(header) => header.clone(),
             Err(error) => return Err(fault_of(&error, self.csv.position())),
         };
-        let position = |name: &String| {
-            header.iter().position(|column| column == name.as_bytes()).ok_or_else(|| Fault::MissingColumn {
+        columns(layout, |name: &String| {
+            let is_it = |column: &[u8]| column.trim_ascii() == name.as_bytes();
+            header.iter().position(is_it).ok_or_else(|| Fault::MissingColumn {
                 column: name.clone(),
                 found: header.iter().take(SHOWN_COLUMNS).map(shown).collect::<Vec<_>>().join(", "),
             })
-        };
-        let time = position(&self.time.column)?;
-        Ok(Columns { time, values: self.value_columns.iter().map(position).collect::<Result<_, _>>()? })
+        })
     }
 
-    fn sample(&self, columns: &Columns) -> Result<Option<Sample>, String> {
-        let time = self.time_of(columns)?;
+    /// Appends the row; false if its sample is missing.
+    fn sample(&self, columns: &Columns, batch: &mut Batch) -> Result<bool, String> {
+        let stamp = columns.time.map(|column| self.stamp(column)).transpose()?;
         let mut counts = [0.0; 3];
-        let mut is_missing = false;
-        for ((count, column), name) in counts.iter_mut().zip(&columns.values).zip(&self.value_columns) {
+        for ((count, column), name) in counts.iter_mut().zip(&columns.values).zip(&self.layout.values) {
             let field = self.row.get(*column).ok_or_else(|| format!("the row ends before column '{name}'"))?;
-            if field.is_empty() {
-                is_missing = true;
-                continue;
-            }
-            let value = std::str::from_utf8(field).ok().and_then(|text| text.parse::<f64>().ok());
-            *count = value.ok_or_else(|| format!("column '{name}': '{}' is not a number", shown(field)))?;
-            is_missing |= !count.is_finite();
+            *count = number(field).ok_or_else(|| format!("column '{name}': '{}' is not a number", shown(field)))?;
         }
-        Ok((!is_missing).then(|| self.converter.sample(time, counts)))
+        if !counts.iter().all(|count| count.is_finite()) {
+            return Ok(false);
+        }
+        batch.stamps.extend(stamp);
+        for (column, count) in batch.counts.iter_mut().zip(counts) {
+            column.push(count);
+        }
+        for (values, column) in batch.extra.iter_mut().zip(&columns.extra) {
+            let value = self.row.get(*column).and_then(number).unwrap_or(f64::NAN);
+            #[expect(clippy::cast_possible_truncation, reason = "carried, not used")]
+            values.push(value as f32);
+        }
+        Ok(true)
     }
 
-    fn time_of(&self, columns: &Columns) -> Result<UtcNs, String> {
-        let name = &self.time.column;
-        let field = self.row.get(columns.time).ok_or_else(|| format!("the row ends before column '{name}'"))?;
-        let time = decimal::utc_ns(field, self.time.unit.power_of_ten_ns());
-        time.ok_or_else(|| format!("column '{name}': '{}' is not a time between 1970 and 2262", shown(field)))
+    fn stamp(&self, column: usize) -> Result<i64, String> {
+        let RowTime { column: name, unit, format, .. } = &self.layout.time;
+        let name = name.as_deref().unwrap_or_default();
+        let field = self.row.get(column).ok_or_else(|| format!("the row ends before column '{name}'"))?.trim_ascii();
+        if let Some(format) = format {
+            let wrong = |why: String| format!("column '{name}': '{}' does not fit '{format}': {why}", shown(field));
+            return civil_ns(field, format).map_err(wrong);
+        }
+        let power = unit.unwrap_or_default().power_of_ten_ns();
+        decimal::ns(field, power).ok_or_else(|| format!("column '{name}': '{}' is no time", shown(field)))
     }
 
     fn note_bad_row(&mut self, fact: String) {
         self.bad_rows += 1;
-        let line = self.row.position().map_or(0, csv::Position::line);
+        self.bad_bytes += self.row.as_slice().len() as u64;
+        let line = self.row.position().map_or(0, csv::Position::line) + u64::from(self.layout.format.skip_lines);
         self.first_bad_row.get_or_insert((line, fact));
     }
+}
+
+fn columns(layout: &CsvLayout, find: impl Fn(&String) -> Result<usize, Fault>) -> Result<Columns, Fault> {
+    Ok(Columns {
+        time: layout.time.column.as_ref().map(&find).transpose()?,
+        values: layout.values.iter().map(&find).collect::<Result<_, _>>()?,
+        extra: layout.extra.iter().map(&find).collect::<Result<_, _>>()?,
+    })
+}
+
+/// A decimal number; NaN for an empty field. None for anything else.
+fn number(field: &[u8]) -> Option<f64> {
+    let field = field.trim_ascii();
+    if field.is_empty() {
+        return Some(f64::NAN);
+    }
+    fast_float2::parse(field).ok()
+}
+
+/// Whether a strptime pattern of a time names its zone: by an offset, by seconds since 1970, or by a literal Z at its end.
+pub(crate) fn names_zone(format: &str) -> bool {
+    let names = ["%z", "%:z", "%s", "%Q", "%:Q"].iter().any(|directive| format.contains(directive));
+    names || (format.ends_with('Z') && !format.ends_with("%Z"))
+}
+
+/// A date and time as text: with an offset in ns since 1970 UTC, without one in ns since 1970-01-01 on the wall clock.
+fn civil_ns(field: &[u8], format: &str) -> Result<i64, String> {
+    let parsed = BrokenDownTime::parse(format, field).map_err(|error| error.to_string())?;
+    let timestamp = match parsed.to_timestamp() {
+        Ok(timestamp) => timestamp,
+        Err(_) => {
+            let civil = parsed.to_datetime().map_err(|error| error.to_string())?;
+            TimeZone::UTC.to_timestamp(civil).map_err(|error| error.to_string())?
+        }
+    };
+    i64::try_from(timestamp.as_nanosecond()).map_err(|error| error.to_string())
 }
 
 /// Untrusted bytes for a message: printable and short.
@@ -145,6 +257,15 @@ fn fault_of(error: &csv::Error, end: &csv::Position) -> Fault {
         }
         _ => Fault::Unreadable { offset: end.byte(), message: error.to_string() },
     }
+}
+
+/// Passes over the lines before the column names; each at most as long as a row.
+fn skip_lines(reader: &mut impl BufRead, lines: u32) -> IoResult<()> {
+    for _ in 0..lines {
+        let mut line = Vec::new();
+        reader.take(LONGEST_ROW_BYTES as u64).read_until(b'\n', &mut line)?;
+    }
+    Ok(())
 }
 
 /// Refuses to read on when a row does not end, so that a row never fills the memory.

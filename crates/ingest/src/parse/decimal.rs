@@ -1,10 +1,8 @@
-//! Decimal times, exactly: an f64 of today's seconds is 240 ns coarse.
+//! Times as numbers, without losing digits: an f64 of today's seconds is 240 ns coarse.
 
-use model::UtcNs;
-
-/// The time that a decimal number of 10^`power_of_ten_ns` ns since 1970-01-01 UTC gives, cut to 1 ns. None for anything
-/// else than `digits[.digits]`, for times before 1970 and after 2262.
-pub(super) fn utc_ns(text: &[u8], power_of_ten_ns: u32) -> Option<UtcNs> {
+/// Nanoseconds of a decimal number of 10^`power_of_ten_ns` ns, cut to 1 ns. None for anything else than
+/// `digits[.digits]`, and beyond i64.
+pub(super) fn ns(text: &[u8], power_of_ten_ns: u32) -> Option<i64> {
     let text = text.strip_prefix(b"+").unwrap_or(text);
     let (whole, fraction) = match text.iter().position(|byte| *byte == b'.') {
         Some(dot) => (&text[..dot], &text[dot + 1..]),
@@ -18,7 +16,20 @@ pub(super) fn utc_ns(text: &[u8], power_of_ten_ns: u32) -> Option<UtcNs> {
         total?.checked_mul(10)?.checked_add(digit)
     };
     let shifted = (0..power_of_ten_ns as usize).map(|place| fraction.get(place).unwrap_or(&b'0'));
-    whole.iter().chain(shifted).fold(Some(0), digits).map(UtcNs)
+    whole.iter().chain(shifted).fold(Some(0), digits)
+}
+
+/// Nanoseconds of a number of units, whole and fraction apart, so that nothing is lost beyond the number's own digits.
+/// None for what is negative, not finite or beyond i64.
+#[expect(clippy::cast_possible_truncation, reason = "the range is checked, and floor() and round() give whole numbers")]
+#[expect(clippy::cast_precision_loss, reason = "a unit is at most 1e9 ns")]
+pub(super) fn ns_of(units: f64, unit_ns: i64) -> Option<i64> {
+    let largest = i64::MAX as f64 / unit_ns as f64 - 1.0;
+    if !(0.0..largest).contains(&units) {
+        return None;
+    }
+    let whole = units.floor();
+    Some(whole as i64 * unit_ns + ((units - whole) * unit_ns as f64).round() as i64)
 }
 
 #[cfg(test)]
@@ -27,16 +38,20 @@ mod tests {
 
     #[test]
     fn decimal_times_are_exact() {
-        assert_eq!(utc_ns(b"1760676790.103992576", 9), Some(UtcNs(1_760_676_790_103_992_576)));
-        assert_eq!(utc_ns(b"1760676790103992576", 0), Some(UtcNs(1_760_676_790_103_992_576)));
-        assert_eq!(utc_ns(b"1760676790103.5", 6), Some(UtcNs(1_760_676_790_103_500_000)));
-        assert_eq!(utc_ns(b"+12.", 3), Some(UtcNs(12_000)));
+        assert_eq!(ns(b"1760676790.103992576", 9), Some(1_760_676_790_103_992_576));
+        assert_eq!(ns(b"1760676790103992576", 0), Some(1_760_676_790_103_992_576));
+        assert_eq!(ns(b"1760676790103.5", 6), Some(1_760_676_790_103_500_000));
+        assert_eq!(ns(b"+12.", 3), Some(12_000));
     }
 
     #[test]
     fn what_is_no_time_is_refused() {
         for text in ["", ".5", "-1", "1e9", "1.2.3", "NaN", "99999999999999999999", "0x10", "1 2"] {
-            assert_eq!(utc_ns(text.as_bytes(), 9), None, "{text}");
+            assert_eq!(ns(text.as_bytes(), 9), None, "{text}");
         }
+        for units in [-1.0, f64::NAN, f64::INFINITY, 1e300] {
+            assert_eq!(ns_of(units, 1_000_000_000), None, "{units}");
+        }
+        assert_eq!(ns_of(1.5, 1_000_000), Some(1_500_000));
     }
 }

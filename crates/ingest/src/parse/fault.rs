@@ -5,25 +5,59 @@
 pub enum Fault {
     /// The file ends inside a packet.
     #[error(
-        "the file ends inside packet {packet} at byte {offset}: expected {expected} bytes, got {got}; the packets before are used"
+        "the file ends inside the packet at byte {offset}: expected {expected} bytes, got {got}, of which {samples} samples are used"
     )]
     TruncatedPacket {
-        /// Number of the packet, from 1.
-        packet: u64,
         /// Where it begins.
         offset: u64,
         /// Bytes of a whole packet.
         expected: usize,
         /// Bytes there are.
         got: usize,
+        /// Samples in them that are whole.
+        samples: usize,
+    },
+    /// Packets that are nothing but zeros.
+    #[error("{bytes} bytes are blocks of zeros, the first at byte {first_offset}")]
+    Zeros {
+        /// Bytes in them.
+        bytes: u64,
+        /// Where the first one begins.
+        first_offset: u64,
+    },
+    /// Packets do not follow each other: bytes were lost, or others stand between.
+    #[error(
+        "in {places} places packets do not follow each other, the first at byte {first_offset}: {bytes} bytes are left out"
+    )]
+    LostAlignment {
+        /// Bytes that are left out.
+        bytes: u64,
+        /// How many places.
+        places: u64,
+        /// Where the first one begins.
+        first_offset: u64,
+    },
+    /// A CWA file's damage.
+    #[error("{blocks} blocks cannot be used ({bytes} bytes), the first at byte {first_offset}: {first}")]
+    BadBlocks {
+        /// How many.
+        blocks: u64,
+        /// Bytes in them, and between blocks.
+        bytes: u64,
+        /// Where the first one begins.
+        first_offset: u64,
+        /// What is wrong with the first one.
+        first: String,
     },
     /// Packets whose stamp is no time.
     #[error(
-        "{packets} packets have a stamp that is not a time between 1970 and 2262, the first at byte {first_offset}: {first}"
+        "{packets} packets ({bytes} bytes) have a stamp that is no time, the first at byte {first_offset}: {first}"
     )]
     BadStamp {
         /// How many.
         packets: u64,
+        /// Bytes in them.
+        bytes: u64,
         /// Where the first one begins.
         first_offset: u64,
         /// What the first stamp is.
@@ -42,6 +76,8 @@ pub enum Fault {
     BadRows {
         /// How many.
         rows: u64,
+        /// Bytes in them.
+        bytes: u64,
         /// Line of the first one, from 1.
         first_line: u64,
         /// What is wrong with the first one.
@@ -63,22 +99,48 @@ pub enum Fault {
         /// What the system says.
         message: String,
     },
+    /// Samples whose stamps the clock cannot turn into times.
+    #[error("{samples} samples have no time: {first}")]
+    NoTime {
+        /// How many.
+        samples: u64,
+        /// Why the first one has none.
+        first: String,
+    },
     /// Nothing usable in the file.
     #[error("the file holds no samples")]
     NoSamples,
 }
 
 impl Fault {
+    /// Bytes of the file that gave nothing.
+    #[must_use]
+    pub fn lost_bytes(&self) -> u64 {
+        match self {
+            Self::TruncatedPacket { got, samples: 0, .. } => *got as u64,
+            Self::Zeros { bytes, .. }
+            | Self::LostAlignment { bytes, .. }
+            | Self::BadBlocks { bytes, .. }
+            | Self::BadStamp { bytes, .. }
+            | Self::BadRows { bytes, .. } => *bytes,
+            _ => 0,
+        }
+    }
+
     /// Stable code, snake case.
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {
             Self::TruncatedPacket { .. } => "truncated_packet",
+            Self::Zeros { .. } => "zero_blocks",
+            Self::LostAlignment { .. } => "lost_alignment",
+            Self::BadBlocks { .. } => "bad_blocks",
             Self::BadStamp { .. } => "bad_stamp",
             Self::MissingColumn { .. } => "missing_column",
             Self::BadRows { .. } => "bad_rows",
             Self::LongLine { .. } => "long_line",
             Self::Unreadable { .. } => "unreadable_file",
+            Self::NoTime { .. } => "samples_without_time",
             Self::NoSamples => "no_samples",
         }
     }
@@ -91,11 +153,16 @@ impl Fault {
                 "copy the file from the card again; if it stays so, the device was switched off while writing, or the \
                  profile's header, channels or samples do not fit"
             }
+            Self::Zeros { .. } => "copy the file from the card again; a card pulled out while writing leaves zeros",
+            Self::LostAlignment { .. } | Self::BadBlocks { .. } => {
+                "copy the file from the card again; if it stays so, the card has bad sectors, or the profile does not fit"
+            }
             Self::BadStamp { .. } => "check header, endian and the stamp's type in the device profile",
             Self::MissingColumn { .. } => "correct the column's name in the device profile, or the file",
             Self::BadRows { .. } => "look at that line; time and values are plain decimal numbers",
             Self::LongLine { .. } => "copy the file from the card again; a damaged card leaves blocks of zeros",
             Self::Unreadable { .. } => "copy the file from the card again; check its permissions",
+            Self::NoTime { .. } => "declare the clock in the device profile: epoch, wrap_bits, [clock] anchor",
             Self::NoSamples => "remove the file if the device wrote it empty, else copy it from the card again",
         }
     }

@@ -9,9 +9,13 @@ pub mod image_header;
 pub mod image_time;
 mod packet_file;
 mod packets;
+mod raw;
+mod scalar;
 
 pub use convert::Converter;
-pub use csv_file::CsvSamples;
+pub(crate) use csv_file::names_zone;
+pub use csv_file::{CsvLayout, CsvSamples};
 pub use fault::Fault;
 pub use packet_file::PacketSamples;
 pub use packets::{PacketError, PacketParser};
+pub use raw::{RawBlock, Stamps};

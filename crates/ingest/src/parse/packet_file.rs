@@ -1,76 +1,224 @@
-//! A file of packets.
+//! A file of packets, and what is left of one that is damaged.
 
 use std::io::{ErrorKind, Read};
 
-use super::{Fault, PacketError, PacketParser};
-use crate::sample::Sample;
+use super::raw::RawBlock;
+use super::{Fault, PacketParser};
 
-/// Streams the samples of a file of packets, one packet at a time.
+/// Stamps outside of these (one second after 1970-01-01, and 2100-01-01 UTC) are bytes that are no stamp. A clock that was
+/// never set, and counts from 1970, is one.
+const EARLIEST_NS: i64 = 1_000_000_000;
+const LATEST_NS: i64 = 4_102_444_800 * 1_000_000_000;
+/// A stamp found while looking for where packets go on is believed when it is within a day of the last one.
+const RESYNC_WITHIN_NS: i64 = 86_400 * 1_000_000_000;
+
+/// Streams the packets of a file. A packet counts only when what follows it looks like a packet too, or the file ends:
+/// where bytes are lost inside one, it is left out and the search goes on for the next.
 pub struct PacketSamples<R> {
     reader: R,
     parser: PacketParser,
-    packet: Vec<u8>,
-    /// Packets begun so far.
-    packets: u64,
-    bad_stamps: u64,
-    first_bad_stamp: Option<(u64, String)>,
+    /// Whether stamps count from 1970, so that it can be told which are times.
+    is_absolute: bool,
+    bytes: Vec<u8>,
+    /// Where in `bytes` the next packet begins.
+    next: usize,
+    /// Where in the file `bytes` begins.
+    offset: u64,
+    at_end: bool,
+    last_ns: Option<i64>,
+    damage: Damage,
     end: Option<Fault>,
 }
 
+#[derive(Debug, Default)]
+struct Damage {
+    bad_packets: u64,
+    first_bad: Option<(u64, String)>,
+    zero_bytes: u64,
+    first_zero: Option<u64>,
+    skipped_bytes: u64,
+    first_skipped: Option<u64>,
+    places: u64,
+}
+
 impl<R: Read> PacketSamples<R> {
-    /// The packets in `reader`.
-    pub fn new(reader: R, parser: PacketParser) -> Self {
-        let packet = vec![0; parser.packet_bytes()];
-        Self { reader, parser, packet, packets: 0, bad_stamps: 0, first_bad_stamp: None, end: None }
+    /// The packets in `reader`. `is_absolute`: stamps count from 1970.
+    pub fn new(reader: R, parser: PacketParser, is_absolute: bool) -> Self {
+        Self {
+            reader,
+            parser,
+            is_absolute,
+            bytes: Vec::new(),
+            next: 0,
+            offset: 0,
+            at_end: false,
+            last_ns: None,
+            damage: Damage::default(),
+            end: None,
+        }
     }
 
-    /// Appends the samples of the next packet. False when there are no more packets.
-    pub fn next_batch(&mut self, out: &mut Vec<Sample>) -> bool {
-        let expected = self.packet.len();
-        let offset = self.packets * expected as u64;
-        let got = match self.fill() {
-            Ok(got) => got,
-            Err(error) => {
-                self.end = Some(Fault::Unreadable { offset, message: error.to_string() });
-                return false;
+    /// The next packet. None when there are no more.
+    pub fn next_block(&mut self) -> Option<RawBlock> {
+        loop {
+            self.fill();
+            let size = self.parser.packet_bytes();
+            let rest = self.bytes.len() - self.next;
+            if rest < size {
+                return self.last_piece();
             }
-        };
-        if got == 0 {
-            return false;
+            let packet = &self.bytes[self.next..self.next + size];
+            if packet.iter().all(|byte| *byte == 0) {
+                self.pass_zeros(size);
+                continue;
+            }
+            match self.is_time(packet) {
+                Err(stamp) => self.pass_bad(stamp),
+                Ok(_) if self.is_cut_inside() => self.resync(self.next + 1),
+                Ok(ns) => {
+                    let block = self.parser.parse(packet).ok();
+                    self.last_ns = Some(ns);
+                    self.next += size;
+                    if block.is_some() {
+                        return block;
+                    }
+                }
+            }
         }
-        self.packets += 1;
-        if got < expected {
-            self.end = Some(Fault::TruncatedPacket { packet: self.packets, offset, expected, got });
-            return false;
-        }
-        if let Err(PacketError::Stamp(stamp)) = self.parser.parse(&self.packet, out) {
-            self.bad_stamps += 1;
-            self.first_bad_stamp.get_or_insert((offset, stamp));
-        }
-        true
     }
 
     /// What was wrong with the file, and the reader.
     pub fn finish(self) -> (Vec<Fault>, R) {
-        let bad_stamps = self.first_bad_stamp.map(|(first_offset, first)| Fault::BadStamp {
-            packets: self.bad_stamps,
+        let damage = self.damage;
+        let bytes = damage.bad_packets * self.parser.packet_bytes() as u64;
+        let bad_stamps = damage.first_bad.map(|(first_offset, first)| Fault::BadStamp {
+            packets: damage.bad_packets,
+            bytes,
             first_offset,
             first,
         });
-        (bad_stamps.into_iter().chain(self.end).collect(), self.reader)
+        let zeros = damage.first_zero.map(|first_offset| Fault::Zeros { bytes: damage.zero_bytes, first_offset });
+        let skipped = damage.first_skipped.map(|first_offset| Fault::LostAlignment {
+            bytes: damage.skipped_bytes,
+            places: damage.places,
+            first_offset,
+        });
+        (bad_stamps.into_iter().chain(zeros).chain(skipped).chain(self.end).collect(), self.reader)
     }
 
-    /// Fills the packet; fewer bytes at the end of the file.
-    fn fill(&mut self) -> std::io::Result<usize> {
-        let mut got = 0;
-        while got < self.packet.len() {
-            match self.reader.read(&mut self.packet[got..]) {
-                Ok(0) => break,
+    /// The stamp, if it is a time; what it is otherwise.
+    fn is_time(&self, packet: &[u8]) -> Result<i64, String> {
+        let ns = self.parser.stamp_ns(packet).map_err(|error| error.to_string())?;
+        if self.is_absolute && !(EARLIEST_NS..LATEST_NS).contains(&ns) {
+            return Err(format!("{} s since 1970 is not between the years 1970 and 2100", ns / 1_000_000_000));
+        }
+        Ok(ns)
+    }
+
+    /// Whether what follows the next packet is no packet, but one begins inside it: bytes were lost there.
+    fn is_cut_inside(&self) -> bool {
+        let size = self.parser.packet_bytes();
+        let Some(following) = self.bytes.get(self.next + size..).filter(|rest| rest.len() >= size) else {
+            return false;
+        };
+        let looks_right = self.is_time(following).is_ok() || following[..size].iter().all(|byte| *byte == 0);
+        !looks_right && self.find_packet(self.next + 1).is_some_and(|found| found % size != self.next % size)
+    }
+
+    /// Where in `bytes` a packet begins, at `from` or later: its stamp and the next one's follow on the last one believed.
+    fn find_packet(&self, from: usize) -> Option<usize> {
+        if !self.is_absolute {
+            return None;
+        }
+        let size = self.parser.packet_bytes();
+        let follows = |at: usize, last: Option<i64>| {
+            let ns = self.bytes.get(at..at + size).and_then(|packet| self.is_time(packet).ok())?;
+            last.is_none_or(|last| (0..=RESYNC_WITHIN_NS).contains(&(ns - last))).then_some(ns)
+        };
+        (from..self.bytes.len().saturating_sub(size)).find(|at| {
+            let Some(ns) = follows(*at, self.last_ns) else { return false };
+            follows(at + size, Some(ns)).is_some_and(|next| next > ns) || (self.at_end && at + size == self.bytes.len())
+        })
+    }
+
+    fn pass_bad(&mut self, stamp: String) {
+        let size = self.parser.packet_bytes();
+        if let Some(found) = self.find_packet(self.next + 1).filter(|found| found % size != self.next % size) {
+            self.skip_to(found);
+            return;
+        }
+        self.damage.bad_packets += 1;
+        self.damage.first_bad.get_or_insert((self.offset + self.next as u64, stamp));
+        self.next += size;
+    }
+
+    fn resync(&mut self, from: usize) {
+        let found = self.find_packet(from).unwrap_or(self.next + self.parser.packet_bytes());
+        self.skip_to(found);
+    }
+
+    fn skip_to(&mut self, found: usize) {
+        self.damage.places += 1;
+        self.damage.skipped_bytes += (found - self.next) as u64;
+        self.damage.first_skipped.get_or_insert(self.offset + self.next as u64);
+        self.next = found;
+    }
+
+    fn pass_zeros(&mut self, size: usize) {
+        self.damage.zero_bytes += size as u64;
+        self.damage.first_zero.get_or_insert(self.offset + self.next as u64);
+        self.next += size;
+    }
+
+    /// What is left at the end of the file, less than a packet.
+    fn last_piece(&mut self) -> Option<RawBlock> {
+        let piece = &self.bytes[self.next..];
+        if piece.is_empty() || self.end.is_some() {
+            return None;
+        }
+        let (offset, got) = (self.offset + self.next as u64, piece.len());
+        if piece.iter().all(|byte| *byte == 0) {
+            self.pass_zeros(got);
+            return None;
+        }
+        let block = match piece.len() > self.parser.header_bytes() && self.is_time(piece).is_ok() {
+            true => self.parser.parse(piece).ok().filter(|block| !block.is_empty()),
+            false => None,
+        };
+        let expected = self.parser.packet_bytes();
+        let samples = block.as_ref().map_or(0, RawBlock::len);
+        self.end = Some(Fault::TruncatedPacket { offset, expected, got, samples });
+        self.next = self.bytes.len();
+        block
+    }
+
+    /// Reads on until three packets are at hand: one, the one that follows, and what may lie between them.
+    fn fill(&mut self) {
+        let size = self.parser.packet_bytes();
+        if self.at_end || self.bytes.len() - self.next >= 3 * size {
+            return;
+        }
+        self.bytes.drain(..self.next);
+        self.offset += self.next as u64;
+        self.next = 0;
+        let wanted = (3 * size).max(256 * 1024);
+        let mut got = self.bytes.len();
+        self.bytes.resize(wanted, 0);
+        while got < wanted {
+            match self.reader.read(&mut self.bytes[got..]) {
+                Ok(0) => {
+                    self.at_end = true;
+                    break;
+                }
                 Ok(n) => got += n,
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error) => return Err(error),
+                Err(error) => {
+                    self.at_end = true;
+                    self.end = Some(Fault::Unreadable { offset: self.offset + got as u64, message: error.to_string() });
+                    break;
+                }
             }
         }
-        Ok(got)
+        self.bytes.truncate(got);
     }
 }

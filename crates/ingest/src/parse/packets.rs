@@ -1,86 +1,90 @@
-//! One binary packet: a header with the time of its first sample, then the samples of all channels.
+//! One binary packet: a header with a stamp, then the samples of all channels.
 
-use model::UtcNs;
-
-use super::Converter;
-use crate::profile::{Endian, PacketLayout, SampleOrder, Scalar};
-use crate::sample::Sample;
+use super::raw::{RawBlock, Stamps};
+use super::scalar::{read_column, read_one, read_whole};
+use super::{Converter, decimal};
+use crate::profile::{Endian, PacketLayout, SampleOrder, Scalar, StampAt};
 
 /// Parses packets of one layout.
 #[derive(Debug, Clone)]
 pub struct PacketParser {
     packet_bytes: usize,
-    stamp_offset: usize,
-    stamp_type: Scalar,
+    header_bytes: usize,
+    stamp: Field,
+    unit_ns: i64,
+    at_sample: f64,
+    sequence: Option<Field>,
     sample_type: Scalar,
     endian: Endian,
     /// Byte offset of the first value of each used channel.
     channel_offsets: Vec<usize>,
+    /// Likewise of each carried channel.
+    extra_offsets: Vec<usize>,
     /// Bytes from a channel's value to its next.
     step_bytes: usize,
     samples: usize,
     missing: Option<f64>,
-    rate_hz: f64,
     converter: Converter,
+}
+
+/// A number in the header.
+#[derive(Debug, Clone, Copy)]
+struct Field {
+    offset: usize,
+    scalar: Scalar,
 }
 
 /// Why a packet, or a layout, gives no samples.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PacketError {
-    /// The slice is not one packet.
-    #[error("expected a packet of {expected} bytes, got {got}")]
-    Length {
-        /// Bytes of a packet.
-        expected: usize,
-        /// Bytes given.
-        got: usize,
-    },
-    /// The stamp is no time between 1970 and 2262.
-    #[error("the stamp {0} s is not a time between 1970 and 2262")]
+    /// The stamp is beyond all times.
+    #[error("the stamp {0} is no time")]
     Stamp(String),
     /// The layout has no such channel or field, or is beyond all sizes.
     #[error("the layout does not declare {0}")]
-    Layout(&'static str),
+    Layout(String),
 }
 
 impl PacketParser {
-    /// A parser of that layout. `rate_hz` is the step between a packet's samples.
+    /// A parser of that layout. `extra`: the channels to carry along.
     ///
     /// # Errors
     /// [`PacketError::Layout`] for a layout that [`Profile::check`](crate::Profile::check) refuses.
-    pub fn new(layout: &PacketLayout, rate_hz: f64, converter: Converter) -> Result<Self, PacketError> {
-        let mut header_bytes = 0;
-        let mut stamp = None;
-        for field in &layout.header {
-            if field.field == "stamp" {
-                stamp = Some((header_bytes, field.scalar));
-            }
-            header_bytes += field.scalar.bytes();
-        }
-        let (stamp_offset, stamp_type) = stamp.ok_or(PacketError::Layout("stamp"))?;
+    pub fn new(layout: &PacketLayout, extra: &[String], converter: Converter) -> Result<Self, PacketError> {
+        let absent = |what: &str| PacketError::Layout(what.to_owned());
         let size = layout.sample_type.bytes();
+        let header_bytes: usize = layout.header.iter().map(|field| field.scalar.bytes()).sum();
         let samples_bytes = layout.samples.checked_mul(layout.channels.len()).and_then(|n| n.checked_mul(size));
-        let packet_bytes =
-            samples_bytes.and_then(|n| n.checked_add(header_bytes)).ok_or(PacketError::Layout("a possible size"))?;
+        let packet_bytes = samples_bytes.and_then(|n| n.checked_add(header_bytes));
+        let packet_bytes = packet_bytes.filter(|bytes| *bytes > 0).ok_or_else(|| absent("a possible size"))?;
         let (channel_bytes, step_bytes) = match layout.order {
             SampleOrder::ChannelMajor => (layout.samples * size, size),
             SampleOrder::Interleaved => (size, layout.channels.len() * size),
         };
-        let offset_of = |name: &&'static str| {
-            let index = layout.channels.iter().position(|channel| channel == name).ok_or(PacketError::Layout(name))?;
+        let offset_of = |name: &str| {
+            let index = layout.channels.iter().position(|channel| channel == name).ok_or_else(|| absent(name))?;
             Ok(header_bytes + index * channel_bytes)
+        };
+        let last = layout.samples.saturating_sub(1);
+        let at_sample = match layout.stamp.at {
+            StampAt::First => 0,
+            StampAt::Last => last,
+            StampAt::End => layout.samples,
         };
         Ok(Self {
             packet_bytes,
-            stamp_offset,
-            stamp_type,
+            header_bytes,
+            stamp: field(layout, "stamp").ok_or_else(|| absent("stamp"))?,
+            unit_ns: layout.stamp.unit.ns(),
+            at_sample: f64::from(u32::try_from(at_sample).map_err(|_| absent("a possible size"))?),
+            sequence: field(layout, "sequence"),
             sample_type: layout.sample_type,
             endian: layout.endian,
-            channel_offsets: converter.channels().iter().map(offset_of).collect::<Result<_, _>>()?,
+            channel_offsets: converter.channels().iter().map(|name| offset_of(name)).collect::<Result<_, _>>()?,
+            extra_offsets: extra.iter().map(|name| offset_of(name)).collect::<Result<_, _>>()?,
             step_bytes,
             samples: layout.samples,
             missing: layout.missing,
-            rate_hz,
             converter,
         })
     }
@@ -91,79 +95,111 @@ impl PacketParser {
         self.packet_bytes
     }
 
-    /// Appends the samples of one packet, in order of time: sample i is at stamp + i / rate. Missing ones are left out.
+    /// Bytes before its samples.
+    #[must_use]
+    pub fn header_bytes(&self) -> usize {
+        self.header_bytes
+    }
+
+    /// The samples of one packet. Of a packet that is cut off, those of which all channels are there.
     ///
     /// # Errors
-    /// [`PacketError`] when the slice is not one packet or its stamp is no time; nothing is then appended.
-    pub fn parse(&self, packet: &[u8], out: &mut Vec<Sample>) -> Result<(), PacketError> {
-        if packet.len() != self.packet_bytes {
-            return Err(PacketError::Length { expected: self.packet_bytes, got: packet.len() });
-        }
-        let start = self.stamp(packet)?;
-        for i in 0..self.samples {
-            let mut counts = [0.0; 3];
-            let mut is_missing = true;
-            for (count, offset) in counts.iter_mut().zip(&self.channel_offsets) {
-                *count = self.scalar(packet, offset + i * self.step_bytes, self.sample_type);
-                is_missing &= self.missing.is_some_and(|missing| (*count - missing).abs() < f64::EPSILON);
-            }
-            if !is_missing && counts.iter().all(|count| count.is_finite()) {
-                #[expect(clippy::cast_precision_loss, reason = "a packet has far fewer than 2^53 samples")]
-                let time = start.plus_seconds(i as f64 / self.rate_hz);
-                out.push(self.converter.sample(time, counts));
-            }
-        }
-        Ok(())
-    }
-
-    fn stamp(&self, packet: &[u8]) -> Result<UtcNs, PacketError> {
-        let bytes = packet.get(self.stamp_offset..).unwrap_or_default();
-        let whole = |seconds: Option<i64>| seconds.filter(|s| *s >= 0).and_then(|s| s.checked_mul(1_000_000_000));
-        let ns = match self.stamp_type {
-            Scalar::I64 => whole(self.array(bytes).map(i64::from_le_bytes)),
-            Scalar::U64 => whole(self.array(bytes).and_then(|b| i64::try_from(u64::from_le_bytes(b)).ok())),
-            scalar => ns_of_seconds(self.scalar(packet, self.stamp_offset, scalar)),
+    /// [`PacketError::Stamp`] when the stamp is no time.
+    pub fn parse(&self, packet: &[u8]) -> Result<RawBlock, PacketError> {
+        let ns = self.stamp_ns(packet)?;
+        let counts: Vec<Vec<f64>> = self.channel_offsets.iter().map(|offset| self.column(packet, *offset)).collect();
+        let extra: Vec<Vec<f64>> = self.extra_offsets.iter().map(|offset| self.column(packet, *offset)).collect();
+        let whole = counts.iter().map(Vec::len).min().unwrap_or(0);
+        let present = self.present(&counts, whole);
+        let kept = |column: &Vec<f64>| match &present {
+            None => column[..whole].to_vec(),
+            Some(present) => present.iter().map(|i| column[*i as usize]).collect(),
         };
-        let text = || self.scalar(packet, self.stamp_offset, self.stamp_type).to_string();
-        ns.map(UtcNs).ok_or_else(|| PacketError::Stamp(text()))
+        let channels = self.converter.convert(&counts.iter().map(kept).collect::<Vec<_>>());
+        let carried = |column: &Vec<f64>| self.carried(column, whole, present.as_deref());
+        let missing = present.as_ref().map_or(0, |present| whole - present.len()) as u64;
+        let extra = extra.iter().map(carried).collect();
+        Ok(RawBlock {
+            stamps: Stamps::Packet {
+                ns,
+                at_sample: self.at_sample,
+                samples: u32::try_from(self.samples).unwrap_or(u32::MAX),
+                present: match present {
+                    None if whole < self.samples => Some((0..u32::try_from(whole).unwrap_or(u32::MAX)).collect()),
+                    present => present,
+                },
+            },
+            sequence: self.sequence.and_then(|field| self.whole(packet, field)).and_then(|n| u32::try_from(n).ok()),
+            channels,
+            extra,
+            missing,
+            declared_rate_hz: None,
+        })
     }
 
-    /// The number at `offset`; NaN beyond the packet's end, which [`Self::parse`] has ruled out.
-    #[expect(clippy::cast_precision_loss, reason = "64-bit integers are read exactly where it matters, as stamps")]
-    fn scalar(&self, packet: &[u8], offset: usize, scalar: Scalar) -> f64 {
-        let bytes = packet.get(offset..).unwrap_or_default();
-        let value = match scalar {
-            Scalar::I8 => self.array(bytes).map(|b| f64::from(i8::from_le_bytes(b))),
-            Scalar::U8 => self.array(bytes).map(|b| f64::from(u8::from_le_bytes(b))),
-            Scalar::I16 => self.array(bytes).map(|b| f64::from(i16::from_le_bytes(b))),
-            Scalar::U16 => self.array(bytes).map(|b| f64::from(u16::from_le_bytes(b))),
-            Scalar::I32 => self.array(bytes).map(|b| f64::from(i32::from_le_bytes(b))),
-            Scalar::U32 => self.array(bytes).map(|b| f64::from(u32::from_le_bytes(b))),
-            Scalar::I64 => self.array(bytes).map(|b| i64::from_le_bytes(b) as f64),
-            Scalar::U64 => self.array(bytes).map(|b| u64::from_le_bytes(b) as f64),
-            Scalar::F32 => self.array(bytes).map(|b| f64::from(f32::from_le_bytes(b))),
-            Scalar::F64 => self.array(bytes).map(f64::from_le_bytes),
+    /// The stamp in ns since the clock's epoch.
+    ///
+    /// # Errors
+    /// [`PacketError::Stamp`] when it is no time.
+    pub fn stamp_ns(&self, packet: &[u8]) -> Result<i64, PacketError> {
+        let layout = (self.stamp.scalar, self.endian);
+        let ns = match self.whole(packet, self.stamp) {
+            Some(units) => units.checked_mul(self.unit_ns),
+            None => decimal::ns_of(read_one(packet, layout, self.stamp.offset), self.unit_ns),
         };
-        value.unwrap_or(f64::NAN)
+        ns.filter(|ns| *ns >= 0)
+            .ok_or_else(|| PacketError::Stamp(read_one(packet, layout, self.stamp.offset).to_string()))
     }
 
-    /// The first N bytes, least significant first.
-    fn array<const N: usize>(&self, bytes: &[u8]) -> Option<[u8; N]> {
-        let mut array = *bytes.first_chunk()?;
-        if self.endian == Endian::Big {
-            array.reverse();
+    fn whole(&self, packet: &[u8], field: Field) -> Option<i64> {
+        read_whole(packet, (field.scalar, self.endian), field.offset)
+    }
+
+    fn column(&self, packet: &[u8], offset: usize) -> Vec<f64> {
+        let mut column = Vec::with_capacity(self.samples);
+        read_column(packet, (self.sample_type, self.endian), (offset, self.step_bytes, self.samples), &mut column);
+        column
+    }
+
+    /// Which of the first `whole` samples are there; none for all. One is missing where all its channels say so, or one
+    /// is not finite.
+    fn present(&self, counts: &[Vec<f64>], whole: usize) -> Option<Vec<u32>> {
+        let is_missing = |value: f64| self.missing.is_some_and(|missing| (value - missing).abs() < f64::EPSILON);
+        let is_there = |i: usize| {
+            let mut all_missing = true;
+            let mut finite = true;
+            for column in counts {
+                all_missing &= is_missing(column[i]);
+                finite &= column[i].is_finite();
+            }
+            finite && !all_missing
+        };
+        if (0..whole).all(is_there) {
+            return None;
         }
-        Some(array)
+        Some((0..whole).filter(|i| is_there(*i)).filter_map(|i| u32::try_from(i).ok()).collect())
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "24 bits hold every count of a 16-bit sensor")]
+    fn carried(&self, column: &[f64], whole: usize, present: Option<&[u32]>) -> Vec<f32> {
+        let value = |i: usize| match column.get(i) {
+            Some(value) if self.missing != Some(*value) => *value as f32,
+            _ => f32::NAN,
+        };
+        match present {
+            None => (0..whole).map(value).collect(),
+            Some(present) => present.iter().map(|i| value(*i as usize)).collect(),
+        }
     }
 }
 
-/// Whole and fractional seconds apart, so that nothing is lost beyond the stamp's own 240 ns.
-#[expect(clippy::cast_possible_truncation, reason = "the range is checked, and floor() and round() give whole numbers")]
-fn ns_of_seconds(seconds: f64) -> Option<i64> {
-    let latest = 9.2e9; // in the year 2261; i64 nanoseconds end in 2262
-    if !(0.0..latest).contains(&seconds) {
-        return None;
+fn field(layout: &PacketLayout, name: &str) -> Option<Field> {
+    let mut offset = 0;
+    for field in &layout.header {
+        if field.field == name {
+            return Some(Field { offset, scalar: field.scalar });
+        }
+        offset += field.scalar.bytes();
     }
-    let whole = seconds.floor();
-    Some(whole as i64 * 1_000_000_000 + ((seconds - whole) * 1e9).round() as i64)
+    None
 }

@@ -36,13 +36,12 @@ impl Axis {
         }
     }
 
-    /// The component of a vector in sensor axes along this axis.
+    /// 1 along the sensor axis, -1 against it.
     #[must_use]
-    pub fn of(self, in_sensor: [f64; 3]) -> f64 {
-        let component = in_sensor[self.index()];
+    pub fn sign(self) -> f64 {
         match self {
-            Self::PlusX | Self::PlusY | Self::PlusZ => component,
-            Self::MinusX | Self::MinusY | Self::MinusZ => -component,
+            Self::PlusX | Self::PlusY | Self::PlusZ => 1.0,
+            Self::MinusX | Self::MinusY | Self::MinusZ => -1.0,
         }
     }
 }

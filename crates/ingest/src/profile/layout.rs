@@ -1,19 +1,28 @@
-//! How samples lie in files: packets and CSV.
+//! How samples lie in binary packets.
 
 use serde::{Deserialize, Serialize};
 
-/// Binary packets of one size, one after the other. The stamp is the time of a packet's first sample.
+use super::{Epoch, TimeUnit};
+
+/// Binary packets of one size, one after the other. A packet of one sample is a record.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PacketLayout {
-    /// What precedes the samples, in order. One field is named `stamp`: seconds since 1970-01-01 UTC.
+    /// What precedes the samples, in order. One field is named `stamp`: the packet's time. One may be named `sequence`: a
+    /// number that rises by one from packet to packet.
     pub header: Vec<HeaderField>,
+    /// What the stamp means.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub stamp: PacketStamp,
+    /// What gives the step between a packet's samples.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub step: Step,
     /// Byte order of header and samples.
     pub endian: Endian,
     /// Type of one value.
     #[serde(default = "default_sample_type")]
     pub sample_type: Scalar,
-    /// Names of the channels in order: `x`, `y`, `z` or `range` are used, others skipped.
+    /// Names of the channels in order: `x`, `y`, `z` or `range` are used, those in `extra` carried along, others skipped.
     pub channels: Vec<String>,
     /// Samples per packet and channel.
     pub samples: usize,
@@ -24,6 +33,10 @@ pub struct PacketLayout {
     pub missing: Option<f64>,
 }
 
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
 fn default_sample_type() -> Scalar {
     Scalar::I16
 }
@@ -32,7 +45,7 @@ fn default_sample_type() -> Scalar {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeaderField {
-    /// Name; `stamp` is the time, others are skipped.
+    /// Name; `stamp` is the time, `sequence` counts packets, others are skipped.
     pub field: String,
     /// Type, hence size.
     #[serde(rename = "type")]
@@ -98,73 +111,41 @@ pub enum SampleOrder {
     Interleaved,
 }
 
-/// The time column of a CSV file: time since 1970-01-01 UTC.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TimeColumn {
-    /// Its name in the file's first line.
-    pub column: String,
+/// What a packet's stamp means.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PacketStamp {
     /// Its unit.
     pub unit: TimeUnit,
+    /// Which moment of the packet it is.
+    pub at: StampAt,
+    /// What it counts from.
+    pub epoch: Epoch,
+    /// The counter starts anew after 2^`wrap_bits` units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wrap_bits: Option<u32>,
 }
 
-/// Unit of a time column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+/// Which moment of a packet its stamp is.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum TimeUnit {
-    /// Seconds.
-    S,
-    /// Milliseconds.
-    Ms,
-    /// Microseconds.
-    Us,
-    /// Nanoseconds.
-    Ns,
+pub enum StampAt {
+    /// Its first sample.
+    #[default]
+    First,
+    /// Its last sample.
+    Last,
+    /// One step after its last sample, when it was written.
+    End,
 }
 
-impl TimeUnit {
-    /// Nanoseconds in one unit, as a power of ten.
-    #[must_use]
-    pub fn power_of_ten_ns(self) -> u32 {
-        match self {
-            Self::S => 9,
-            Self::Ms => 6,
-            Self::Us => 3,
-            Self::Ns => 0,
-        }
-    }
-}
-
-/// Columns of an accelerometer's CSV file, by their names in its first line.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AccelerationColumns {
-    /// Time.
-    pub time: TimeColumn,
-    /// Sensor x, in counts.
-    pub x: String,
-    /// Sensor y, in counts.
-    pub y: String,
-    /// Sensor z, in counts.
-    pub z: String,
-    /// What separates columns: one ASCII character.
-    #[serde(default = "comma")]
-    pub delimiter: char,
-}
-
-/// Columns of a range sensor's CSV file, by their names in its first line.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RangeColumns {
-    /// Time.
-    pub time: TimeColumn,
-    /// Reading, in counts.
-    pub range: String,
-    /// What separates columns: one ASCII character.
-    #[serde(default = "comma")]
-    pub delimiter: char,
-}
-
-fn comma() -> char {
-    ','
+/// What gives the step between the samples of a packet.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Step {
+    /// The nominal rate: holes between packets are real. Where that would reach into the next packet, its stamp.
+    #[default]
+    Nominal,
+    /// The stamps: packets without a gap between them touch.
+    Stamps,
 }

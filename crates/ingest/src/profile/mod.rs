@@ -2,14 +2,17 @@
 
 mod axes;
 mod check;
+mod check_sensors;
+mod clock;
+mod csv;
 mod images;
 mod layout;
 
 pub use axes::Axis;
+pub use clock::{Anchor, ClockSpec, Epoch, TimeUnit};
+pub use csv::{AccelerationColumns, CsvFormat, RangeColumns, RowTime};
 pub use images::{ImageTime, Images};
-pub use layout::{
-    AccelerationColumns, Endian, HeaderField, PacketLayout, RangeColumns, SampleOrder, Scalar, TimeColumn, TimeUnit,
-};
+pub use layout::{Endian, HeaderField, PacketLayout, PacketStamp, SampleOrder, Scalar, StampAt, Step};
 
 use std::path::Path;
 
@@ -26,6 +29,8 @@ const SHELF: Shelf = Shelf {
     built_in: &[
         ("aim2-packets", include_str!("../../profiles/aim2-packets.toml")),
         ("csv", include_str!("../../profiles/csv.toml")),
+        ("axivity-cwa", include_str!("../../profiles/axivity-cwa.toml")),
+        ("pupil-neon", include_str!("../../profiles/pupil-neon.toml")),
     ],
     marks: &["acceleration", "range", "images"],
 };
@@ -42,6 +47,9 @@ pub struct Profile {
     pub version: String,
     /// Camera pitch minus sensor pitch, degrees.
     pub mount_pitch_deg: f64,
+    /// When boot-relative clocks were zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clock: Option<ClockSpec>,
     /// The accelerometer, if the device has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub acceleration: Option<AccelerationStream>,
@@ -53,14 +61,17 @@ pub struct Profile {
     pub images: Option<Images>,
 }
 
-/// The accelerometer's files. Exactly one of `packets` and `csv`.
+/// The accelerometer's files. Exactly one of `packets`, `csv` and `cwa`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AccelerationStream {
     /// Patterns relative to the card; `*` stays within a folder, `**` does not.
     pub files: Vec<String>,
-    /// Nominal sample rate, Hz. Packets: the step between a packet's samples is its inverse.
+    /// Nominal sample rate, Hz.
     pub rate_hz: f64,
+    /// Longer steps between samples are gaps, s; [`Profile::gap_s`] where it is not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gap_s: Option<f64>,
     /// Counts to g.
     pub g_per_count: f64,
     /// Counts at 0 g, per sensor axis.
@@ -68,12 +79,27 @@ pub struct AccelerationStream {
     pub zero_g_counts: [f64; 3],
     /// Device right, down, forward as sensor axes.
     pub axes: [Axis; 3],
+    /// Other channels, or columns, that are carried along.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub extra: Vec<String>,
     /// Binary packets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub packets: Option<PacketLayout>,
     /// Columns of a CSV file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub csv: Option<AccelerationColumns>,
+    /// Axivity CWA files, which describe themselves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cwa: Option<CwaFiles>,
+}
+
+/// Axivity CWA files (AX3, AX6). Their times are wall-clock times in the study's zone; samples are in g; the gyroscope's
+/// channels are carried along as `gyro_x`, `gyro_y`, `gyro_z` where they are named in `extra`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CwaFiles {
+    /// What the device's clock shows: [`Epoch::Unix`] where it was set to UTC, [`Epoch::Local`] otherwise.
+    pub epoch: Epoch,
 }
 
 /// The range sensor's files. Exactly one of `packets` and `csv`.
@@ -82,10 +108,16 @@ pub struct AccelerationStream {
 pub struct RangeStream {
     /// Patterns relative to the card; `*` stays within a folder, `**` does not.
     pub files: Vec<String>,
-    /// Nominal sample rate, Hz. Packets: the step between a packet's samples is its inverse.
+    /// Nominal sample rate, Hz.
     pub rate_hz: f64,
+    /// Longer steps between samples are gaps, s; [`Profile::gap_s`] where it is not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gap_s: Option<f64>,
     /// Counts to mm.
     pub mm_per_count: f64,
+    /// Other channels, or columns, that are carried along.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub extra: Vec<String>,
     /// Binary packets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub packets: Option<PacketLayout>,

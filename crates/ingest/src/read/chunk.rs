@@ -3,11 +3,9 @@
 use std::fs::File;
 
 use mcap::records::{MessageHeader, Record, op};
-use mcap::sans_io::linear_reader::LinearReaderOptions;
 use model::UtcNs;
 
 use super::error::Damage;
-use super::records::for_each_record;
 use super::summary::{ChunkAt, body, read_at};
 use crate::mcap_file::LARGEST_CHUNK_BYTES;
 
@@ -21,26 +19,37 @@ pub(super) fn for_each_message(
         return Err(Damage::Unexpected { expected: "chunk of at most one image", offset: chunk.offset });
     }
     let bytes = read_at(file, file.metadata()?.len(), "chunk", chunk.offset, chunk.bytes)?;
-    let wrong = Damage::Unexpected { expected: "chunk compressed with lz4", offset: chunk.offset };
-    match mcap::parse_record(op::CHUNK, body(&bytes, op::CHUNK, "chunk", chunk.offset)?)? {
-        // We write no other, and the library's reader trusts the lengths in uncompressed ones.
-        Record::Chunk { header, .. } if header.compression == "lz4" => {}
-        _ => return Err(wrong),
+    let wrong = |offset| Damage::Unexpected { expected: "chunk as this program writes them", offset };
+    let Record::Chunk { header, data } =
+        mcap::parse_record(op::CHUNK, body(&bytes, op::CHUNK, "chunk", chunk.offset)?)?
+    else {
+        return Err(wrong(chunk.offset));
+    };
+    if !header.compression.is_empty() || header.uncompressed_size != data.len() as u64 {
+        return Err(wrong(chunk.offset));
     }
-    let limit = usize::try_from(LARGEST_CHUNK_BYTES).unwrap_or(usize::MAX);
-    let options = LinearReaderOptions::default()
-        .with_skip_start_magic(true)
-        .with_skip_end_magic(true)
-        .with_prevalidate_chunk_crcs(true)
-        .with_record_length_limit(limit);
-    for_each_record(&bytes, options, |opcode, data| {
+    if crc32fast::hash(&data) != header.uncompressed_crc {
+        return Err(Damage::Checksum { offset: chunk.offset });
+    }
+    let mut rest: &[u8] = &data;
+    while !rest.is_empty() {
+        let (opcode, record, after) = split_record(rest).ok_or_else(|| wrong(chunk.offset))?;
+        rest = after;
         if opcode == op::MESSAGE
-            && let Record::Message { header, data } = mcap::parse_record(opcode, data)?
+            && let Record::Message { header, data } = mcap::parse_record(opcode, record)?
         {
             each(&header, &data)?;
         }
-        Ok(())
-    })
+    }
+    Ok(())
+}
+
+/// Opcode and body of the first record, and what follows it.
+fn split_record(bytes: &[u8]) -> Option<(u8, &[u8], &[u8])> {
+    let (&[opcode, ref length @ ..], rest) = bytes.split_first_chunk::<9>()?;
+    let length = usize::try_from(u64::from_le_bytes(*length)).ok()?;
+    let (record, after) = rest.split_at_checked(length)?;
+    Some((opcode, record, after))
 }
 
 /// When a message was taken.

@@ -26,6 +26,10 @@ pub(crate) enum Damage {
     Outside { part: &'static str, offset: u64, file_bytes: u64 },
     #[error("the MCAP file is damaged: at byte {offset} expected a {expected}; delete it and ingest the session again")]
     Unexpected { expected: &'static str, offset: u64 },
+    #[error(
+        "the MCAP file is damaged: the chunk at byte {offset} has another checksum than it says; delete it and ingest the session again"
+    )]
+    Checksum { offset: u64 },
     #[error("the MCAP file ends early, or is none: it has no index at its end; delete it and ingest the session again")]
     NoIndex,
     #[error("a message cannot be decoded ({0}); delete the file and ingest the session again")]
@@ -34,6 +38,8 @@ pub(crate) enum Damage {
     Metadata(#[from] MetadataError),
     #[error("a message's time {0} ns is after the year 2262; delete the file and ingest the session again")]
     Time(u64),
+    #[error("a message of samples does not have as many times as values; delete the file and ingest the session again")]
+    Lengths,
     #[error("there is no image '{0}' in this session")]
     NoImage(String),
 }

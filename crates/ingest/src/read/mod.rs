@@ -7,7 +7,6 @@ mod samples;
 mod summary;
 
 pub use error::ReadError;
-pub use samples::Samples;
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -126,17 +125,31 @@ impl SessionReader {
         Err(ReadError::new(&self.path, damage))
     }
 
-    /// All samples in order of time; after an error, none. At equal times they come in the order of the file.
-    pub fn samples(&mut self) -> Samples<'_> {
-        Samples::new(&self.path, &self.file, &self.index)
-    }
-
-    /// Calls `each` with all samples in order of time.
+    /// Calls `each` with all samples: first the accelerometer's, then the range sensor's, each in order of time.
     ///
     /// # Errors
     /// [`ReadError`] when the file is damaged; `each` has then been called with the samples before the damage.
     pub fn for_each_sample(&mut self, mut each: impl FnMut(Sample)) -> Result<(), ReadError> {
-        self.samples().try_for_each(|sample| sample.map(&mut each))
+        self.for_each_acceleration(|time, g| each(Sample::Acceleration { time, g: g.map(f64::from) }))?;
+        self.for_each_range(|time, mm| each(Sample::Range { time, mm: f64::from(mm) }))
+    }
+
+    /// Calls `each` with time and specific force (g, device frame) of all samples of the accelerometer, in order of time.
+    ///
+    /// # Errors
+    /// As [`Self::for_each_sample`].
+    pub fn for_each_acceleration(&mut self, each: impl FnMut(UtcNs, [f32; 3])) -> Result<(), ReadError> {
+        let read = samples::for_each::<samples::Acceleration>(&self.file, &self.index, each);
+        read.map_err(|damage| ReadError::new(&self.path, damage))
+    }
+
+    /// Calls `each` with time and range (mm, codes included) of all samples of the range sensor, in order of time.
+    ///
+    /// # Errors
+    /// As [`Self::for_each_sample`].
+    pub fn for_each_range(&mut self, each: impl FnMut(UtcNs, f32)) -> Result<(), ReadError> {
+        let read = samples::for_each::<samples::Range>(&self.file, &self.index, each);
+        read.map_err(|damage| ReadError::new(&self.path, damage))
     }
 
     fn image_list(&mut self) -> Result<&[(ImageEntry, u32)], ReadError> {

@@ -1,103 +1,140 @@
-//! Sensor samples in order of time.
+//! Samples of one sensor in order of time.
 
 use std::fs::File;
-use std::path::Path;
+
+use model::UtcNs;
 
 use super::chunk;
-use super::error::{Damage, ReadError};
+use super::error::Damage;
 use super::summary::{ChunkAt, Index};
-use crate::mcap_file::messages::{Acceleration, Range};
+use crate::mcap_file::messages::{AccelerationBlock, RangeBlock};
 use crate::mcap_file::topic;
-use crate::sample::Sample;
+use crate::timeline::Times;
 
-/// All samples of a session in order of time. Holds the chunks that overlap in time: one, unless files overlapped.
-pub struct Samples<'a> {
-    path: &'a Path,
-    file: &'a File,
-    index: &'a Index,
-    /// Chunks not yet opened, the latest start first.
-    waiting: Vec<ChunkAt>,
-    open: Vec<OpenChunk>,
-    failed: bool,
+/// A sensor, as its messages are read.
+pub(super) trait Sensor {
+    /// Its topic.
+    const TOPIC: &'static str;
+    /// One sample.
+    type Value: Copy;
+
+    /// Appends the samples of one message.
+    fn decode(time: UtcNs, data: &[u8], out: &mut Vec<(UtcNs, Self::Value)>) -> Result<(), Damage>;
 }
 
-/// The samples of one chunk, sorted by time.
-struct OpenChunk {
+/// Specific force in g, device frame.
+pub(super) struct Acceleration;
+/// Range in mm, as the sensor gave it.
+pub(super) struct Range;
+
+impl Sensor for Acceleration {
+    const TOPIC: &'static str = topic::ACCELERATION;
+    type Value = [f32; 3];
+
+    fn decode(time: UtcNs, data: &[u8], out: &mut Vec<(UtcNs, [f32; 3])>) -> Result<(), Damage> {
+        let AccelerationBlock { step_ns, offset_ns, x_g, y_g, z_g } = prost::Message::decode(data)?;
+        let samples = x_g.len();
+        if [y_g.len(), z_g.len()] != [samples; 2] {
+            return Err(Damage::Lengths);
+        }
+        let values = x_g.into_iter().zip(y_g).zip(z_g).map(|((x, y), z)| [x, y, z]);
+        timed(time, (step_ns, offset_ns), samples, values, out)
+    }
+}
+
+impl Sensor for Range {
+    const TOPIC: &'static str = topic::RANGE;
+    type Value = f32;
+
+    fn decode(time: UtcNs, data: &[u8], out: &mut Vec<(UtcNs, f32)>) -> Result<(), Damage> {
+        let RangeBlock { step_ns, offset_ns, range_mm } = prost::Message::decode(data)?;
+        timed(time, (step_ns, offset_ns), range_mm.len(), range_mm.into_iter(), out)
+    }
+}
+
+fn timed<V>(
+    first: UtcNs,
+    (step_ns, offset_ns): (f64, Vec<u64>),
+    samples: usize,
+    values: impl Iterator<Item = V>,
+    out: &mut Vec<(UtcNs, V)>,
+) -> Result<(), Damage> {
+    if step_ns > 0.0 {
+        out.extend(Times::Even { first, step_ns, samples }.each().zip(values));
+        return Ok(());
+    }
+    if offset_ns.len() != samples {
+        return Err(Damage::Lengths);
+    }
+    let time = |offset: u64| i64::try_from(offset).ok().and_then(|offset| first.0.checked_add(offset)).map(UtcNs);
+    let times: Option<Vec<UtcNs>> = offset_ns.into_iter().map(time).collect();
+    out.extend(times.ok_or(Damage::Lengths)?.into_iter().zip(values));
+    Ok(())
+}
+
+/// Calls `each` with all samples of a sensor in order of time; at equal times in the order of the file. Holds the chunks
+/// that overlap in time: one, unless the clock was set back.
+pub(super) fn for_each<S: Sensor>(
+    file: &File,
+    index: &Index,
+    mut each: impl FnMut(UtcNs, S::Value),
+) -> Result<(), Damage> {
+    let mut waiting = index.sensor_chunks(S::TOPIC).into_iter().peekable();
+    let mut open: Vec<Open<S>> = Vec::new();
+    loop {
+        let earliest = (0..open.len()).min_by_key(|i| (open[*i].time(), open[*i].offset));
+        let opens_next = waiting.peek().is_some_and(|next| {
+            // A chunk that may hold an earlier sample is opened first.
+            earliest.is_none_or(|i| next.start <= open[i].time())
+        });
+        if opens_next {
+            let Some(at) = waiting.next() else { continue };
+            open.extend(Open::read(file, index, &at)?);
+            continue;
+        }
+        let Some(i) = earliest else { return Ok(()) };
+        let until = next_time(&open, i, waiting.peek());
+        let chunk = &mut open[i];
+        let samples = &chunk.samples[chunk.next..];
+        // At least one, since it is the earliest.
+        let n = until.map_or(samples.len(), |until| samples.partition_point(|(time, _)| *time < until)).max(1);
+        samples[..n].iter().for_each(|(time, value)| each(*time, *value));
+        chunk.next += n;
+        if chunk.next >= chunk.samples.len() {
+            open.remove(i);
+        }
+    }
+}
+
+/// Until when chunk `i` may be read on without looking at the others.
+fn next_time<S: Sensor>(open: &[Open<S>], i: usize, waiting: Option<&ChunkAt>) -> Option<UtcNs> {
+    let others = open.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, chunk)| chunk.time());
+    others.chain(waiting.map(|next| next.start)).min()
+}
+
+/// The samples of one chunk, sorted by time; never at its end.
+struct Open<S: Sensor> {
     offset: u64,
-    samples: Vec<Sample>,
+    samples: Vec<(UtcNs, S::Value)>,
     next: usize,
 }
 
-impl OpenChunk {
-    fn peek(&self) -> Option<Sample> {
-        self.samples.get(self.next).copied()
-    }
-}
-
-impl<'a> Samples<'a> {
-    pub(super) fn new(path: &'a Path, file: &'a File, index: &'a Index) -> Self {
-        let mut waiting = index.sensor_chunks();
-        waiting.reverse();
-        Self { path, file, index, waiting, open: Vec::new(), failed: false }
-    }
-
-    fn next_sample(&mut self) -> Result<Option<Sample>, Damage> {
-        loop {
-            let earliest = (0..self.open.len())
-                .filter_map(|i| self.open[i].peek().map(|sample| (sample.time(), self.open[i].offset, i)))
-                .min();
-            // A chunk that may hold an earlier sample is opened first.
-            let opens_next = match (self.waiting.last(), earliest) {
-                (Some(waiting), Some((time, ..))) => waiting.start <= time,
-                (Some(_), None) => true,
-                (None, _) => false,
-            };
-            if opens_next && let Some(waiting) = self.waiting.pop() {
-                let opened = self.open_chunk(&waiting)?;
-                self.open.extend((!opened.samples.is_empty()).then_some(opened));
-                continue;
-            }
-            let Some((_, _, i)) = earliest else { return Ok(None) };
-            let sample = self.open[i].peek();
-            self.open[i].next += 1;
-            if self.open[i].peek().is_none() {
-                self.open.swap_remove(i);
-            }
-            return Ok(sample);
-        }
-    }
-
-    fn open_chunk(&self, at: &ChunkAt) -> Result<OpenChunk, Damage> {
+impl<S: Sensor> Open<S> {
+    fn read(file: &File, index: &Index, at: &ChunkAt) -> Result<Option<Self>, Damage> {
         let mut samples = Vec::new();
-        chunk::for_each_message(self.file, at, |header, data| {
-            let time = chunk::time_of(header)?;
-            match self.index.topic(header.channel_id) {
-                Some(topic::ACCELERATION) => {
-                    let Acceleration { x_g, y_g, z_g } = prost::Message::decode(data)?;
-                    samples.push(Sample::Acceleration { time, g: [x_g, y_g, z_g] });
-                }
-                Some(topic::RANGE) => {
-                    let Range { range_mm } = prost::Message::decode(data)?;
-                    samples.push(Sample::Range { time, mm: range_mm });
-                }
-                _ => {}
+        chunk::for_each_message(file, at, |header, data| {
+            if index.topic(header.channel_id) == Some(S::TOPIC) {
+                S::decode(chunk::time_of(header)?, data, &mut samples)?;
             }
             Ok(())
         })?;
-        samples.sort_by_key(Sample::time);
-        Ok(OpenChunk { offset: at.offset, samples, next: 0 })
-    }
-}
-
-impl Iterator for Samples<'_> {
-    type Item = Result<Sample, ReadError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.failed {
-            return None;
+        if !samples.is_sorted_by_key(|(time, _)| *time) {
+            samples.sort_by_key(|(time, _)| *time);
         }
-        let next = self.next_sample().map_err(|damage| ReadError::new(self.path, damage));
-        self.failed = next.is_err();
-        next.transpose()
+        Ok((!samples.is_empty()).then_some(Self { offset: at.offset, samples, next: 0 }))
+    }
+
+    fn time(&self) -> UtcNs {
+        self.samples[self.next].0
     }
 }

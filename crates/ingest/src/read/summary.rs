@@ -11,7 +11,6 @@ use model::UtcNs;
 use super::error::Damage;
 use super::records::for_each_record;
 use crate::mcap_file::metadata::Records;
-use crate::mcap_file::topic;
 
 /// Opcode, length, body, magic.
 const FOOTER_AND_MAGIC_BYTES: u64 = 1 + 8 + 20 + 8;
@@ -90,9 +89,9 @@ impl Index {
         self.chunks.iter().filter(move |chunk| chunk.channels.iter().any(holds))
     }
 
-    /// The chunks of the sensors, by the time of their first message.
-    pub fn sensor_chunks(&self) -> Vec<ChunkAt> {
-        let mut chunks: Vec<ChunkAt> = self.chunks_of(&[topic::ACCELERATION, topic::RANGE]).cloned().collect();
+    /// The chunks of a sensor, by the time of their first message.
+    pub fn sensor_chunks(&self, topic: &'static str) -> Vec<ChunkAt> {
+        let mut chunks: Vec<ChunkAt> = self.chunks_of(&[topic]).cloned().collect();
         chunks.sort_by_key(|chunk| (chunk.start, chunk.offset));
         chunks
     }

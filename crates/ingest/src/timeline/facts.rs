@@ -15,6 +15,20 @@ pub struct Timeline {
 }
 
 impl Timeline {
+    /// Of the sensors' accounts.
+    pub(crate) fn new(acceleration: Option<StreamFacts>, range: Option<StreamFacts>) -> Self {
+        let mut spans: Vec<Span> = acceleration.iter().chain(&range).flat_map(StreamFacts::overlaps).collect();
+        spans.sort_by_key(|span| (span.from, span.to));
+        let mut ambiguous: Vec<Span> = Vec::new();
+        for span in spans {
+            match ambiguous.last_mut() {
+                Some(last) if span.from <= last.to => last.to = last.to.max(span.to),
+                _ => ambiguous.push(span),
+            }
+        }
+        Self { acceleration, range, ambiguous }
+    }
+
     /// Whether a window of `half_s` around `time` touches a time that exists twice.
     #[must_use]
     pub fn is_ambiguous(&self, time: UtcNs, half_s: f64) -> bool {
@@ -70,12 +84,28 @@ pub struct StreamFacts {
     pub reordered: u64,
     /// Packets that were there twice and are used once.
     pub duplicates: u64,
-    /// Where the clock was set while recording went on; the first [`LISTED`].
+    /// How often the clock was set while recording went on.
+    pub jumps: u64,
+    /// Where it was; the first [`LISTED`].
     pub clock_jumps: Vec<ClockJump>,
-    /// Stretches of one time line each: one more than clock jumps. Gaps do not end a stretch.
+    /// Stretches of one time line each: one more than clock jumps, at most [`LISTED`]. Gaps do not end a stretch.
     pub stretches: Vec<Span>,
     /// Bytes of the sensor's files that gave nothing: damage, not headers.
     pub lost_bytes: u64,
+}
+
+impl StreamFacts {
+    /// Times that two stretches claim.
+    pub(super) fn overlaps(&self) -> Vec<Span> {
+        let mut spans = Vec::new();
+        for (i, a) in self.stretches.iter().enumerate() {
+            for b in &self.stretches[i + 1..] {
+                let (from, to) = (a.from.max(b.from), a.to.min(b.to));
+                spans.extend((from <= to).then_some(Span { from, to }));
+            }
+        }
+        spans
+    }
 }
 
 /// A clock that was set while recording went on.

@@ -1,14 +1,16 @@
 //! No parser panics, whatever the bytes.
 
-use aim_batch_ingest::parse::{Converter, CsvSamples, PacketParser, PacketSamples, image_header, image_time};
-use aim_batch_ingest::profile::{TimeColumn, TimeUnit};
+use aim_batch_ingest::parse::{
+    Converter, CsvLayout, CsvSamples, PacketParser, PacketSamples, image_header, image_time,
+};
+use aim_batch_ingest::profile::{CsvFormat, RowTime, TimeUnit};
 use aim_batch_ingest::{Profile, SessionReader, config};
 use jiff::tz::TimeZone;
 use proptest::prelude::*;
 use std::io::Write;
 use std::path::Path;
 
-use crate::support::{jpeg, jpeg_with_exif};
+use crate::support::{jpeg, jpeg_with_exif, timed, times_and_values};
 
 /// Bytes with some of them altered: gets deeper into a parser than noise.
 fn altered(bytes: Vec<u8>) -> impl Strategy<Value = Vec<u8>> {
@@ -22,41 +24,44 @@ fn altered(bytes: Vec<u8>) -> impl Strategy<Value = Vec<u8>> {
     })
 }
 
+fn csv_layout(unit: TimeUnit) -> CsvLayout {
+    CsvLayout {
+        format: CsvFormat::default(),
+        time: RowTime { column: Some("t".to_owned()), unit: Some(unit), ..RowTime::default() },
+        values: vec!["range".to_owned()],
+        extra: vec![],
+        converter: Converter::Range { mm_per_count: 1.0 },
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
-    fn packets(bytes in prop::collection::vec(any::<u8>(), 0..400), samples in 1_usize..20, rate_hz in 1e-9_f64..1e9) {
+    fn packets(bytes in prop::collection::vec(any::<u8>(), 0..400), samples in 1_usize..20) {
         let profile = Profile::load("aim2-packets", Path::new("none")).unwrap();
         let stream = profile.acceleration.unwrap();
         let layout = aim_batch_ingest::profile::PacketLayout { samples, ..stream.packets.clone().unwrap() };
-        let parser = PacketParser::new(&layout, rate_hz, Converter::from(&stream)).unwrap();
-        let whole = bytes.len() / parser.packet_bytes();
-        let mut packets = PacketSamples::new(bytes.as_slice(), parser);
-        let mut out = Vec::new();
-        while packets.next_batch(&mut out) {}
-        prop_assert!(out.len() <= whole * samples);
+        let parser = PacketParser::new(&layout, &stream.extra, Converter::from(&stream)).unwrap();
+        let most = bytes.len() / 6; // x, y, z
+        let mut packets = PacketSamples::new(bytes.as_slice(), parser, true);
+        let read: usize = std::iter::from_fn(|| packets.next_block()).map(|block| block.len()).sum();
+        prop_assert!(read <= most);
     }
 
     #[test]
     fn csv(bytes in prop::collection::vec(any::<u8>(), 0..400), header in any::<bool>()) {
         let text = if header { [b"t,range\n", bytes.as_slice()].concat() } else { bytes };
-        let time = TimeColumn { column: "t".to_owned(), unit: TimeUnit::Us };
-        let converter = Converter::Range { mm_per_count: 1.0 };
-        let mut csv = CsvSamples::new(text.as_slice(), time, vec!["range".to_owned()], b',', converter);
-        let mut out = Vec::new();
-        while csv.next_batch(&mut out) {}
-        prop_assert!(out.len() <= text.len());
+        let mut csv = CsvSamples::new(text.as_slice(), csv_layout(TimeUnit::Us));
+        let read: usize = std::iter::from_fn(|| csv.next_block()).map(|block| block.len()).sum();
+        prop_assert!(read <= text.len());
     }
 
     #[test]
     fn csv_of_digits(text in "t,range\n([0-9.,\"\r\n-]{0,200})") {
-        let time = TimeColumn { column: "t".to_owned(), unit: TimeUnit::S };
-        let converter = Converter::Range { mm_per_count: 1.0 };
-        let mut csv = CsvSamples::new(text.as_bytes(), time, vec!["range".to_owned()], b',', converter);
-        let mut out = Vec::new();
-        while csv.next_batch(&mut out) {}
-        prop_assert!(out.iter().all(|sample| sample.time().0 >= 0));
+        let mut csv = CsvSamples::new(text.as_bytes(), csv_layout(TimeUnit::S));
+        let blocks: Vec<_> = std::iter::from_fn(|| csv.next_block()).collect();
+        prop_assert!(times_and_values(&timed(blocks, 128.0)).iter().all(|(ns, _)| *ns >= 0));
     }
 
     #[test]

@@ -57,17 +57,21 @@ fn images_that_cannot_be_used_are_listed_with_their_reason() {
 }
 
 #[test]
-fn a_truncated_sensor_file_loses_only_its_last_packet() {
+fn of_a_truncated_sensor_file_all_whole_samples_are_used() {
     let study = Study::new("aim2-packets");
     sensors(&study);
     let two = [acceleration_packet(NOON), acceleration_packet(NOON + 8.0)].concat();
-    study.write("SENSORS/ACC.BIN", &two[..two.len() - 100]);
+    study.write("SENSORS/ACC.BIN", &two[..two.len() - 2044 - 100]); // without the optical sensor, and 50 samples of z
     let (summary, mut reader) = study.ingest();
-    assert_eq!(summary.counts.acceleration, 1022);
-    assert_eq!(samples(&mut reader).len(), 2 * 1022);
+    assert_eq!(summary.counts.acceleration, 1022 + 972);
+    assert_eq!(samples(&mut reader).len(), 1022 + 972 + 1022);
     let problem = &summary.problems[0];
     assert_eq!((problem.code.as_str(), problem.place.as_str()), ("truncated_packet", "cards/P01/SENSORS/ACC.BIN"));
-    assert!(problem.fact.contains("inside packet 2 at byte 8184: expected 8184 bytes, got 8084"), "{}", problem.fact);
+    assert!(
+        problem.fact.contains("inside the packet at byte 8184: expected 8184 bytes, got 6040, of which 972 samples"),
+        "{}",
+        problem.fact
+    );
     assert!(!problem.remedy.is_empty());
 }
 

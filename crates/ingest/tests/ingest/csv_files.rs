@@ -1,21 +1,38 @@
 //! CSV: columns by name, exact times, missing and bad values.
 
-use aim_batch_ingest::Sample;
-use aim_batch_ingest::parse::{Converter, CsvSamples, Fault};
-use aim_batch_ingest::profile::{TimeColumn, TimeUnit};
-use model::UtcNs;
+use aim_batch_ingest::parse::{Converter, CsvLayout, CsvSamples, Fault};
+use aim_batch_ingest::profile::{CsvFormat, RowTime, TimeUnit};
 
-fn read(text: &[u8], unit: TimeUnit, delimiter: u8) -> (Vec<Sample>, Vec<Fault>) {
-    let time = TimeColumn { column: "t".to_owned(), unit };
-    let converter = Converter::Range { mm_per_count: 10.0 };
-    let mut csv = CsvSamples::new(text, time, vec!["range".to_owned()], delimiter, converter);
-    let mut samples = Vec::new();
-    while csv.next_batch(&mut samples) {}
-    (samples, csv.finish().0)
+use crate::support::{timed, times_and_values};
+
+type Samples = Vec<(i64, Vec<f32>)>;
+
+fn layout(time: RowTime, delimiter: char) -> CsvLayout {
+    CsvLayout {
+        format: CsvFormat { delimiter, ..CsvFormat::default() },
+        time,
+        values: vec!["range".to_owned()],
+        extra: vec![],
+        converter: Converter::Range { mm_per_count: 10.0 },
+    }
 }
 
-fn range(ns: i64, mm: f64) -> Sample {
-    Sample::Range { time: UtcNs(ns), mm }
+fn column(unit: TimeUnit) -> RowTime {
+    RowTime { column: Some("t".to_owned()), unit: Some(unit), ..RowTime::default() }
+}
+
+fn read_with(text: &[u8], layout: CsvLayout) -> (Samples, Vec<Fault>) {
+    let mut csv = CsvSamples::new(text, layout);
+    let blocks: Vec<_> = std::iter::from_fn(|| csv.next_block()).collect();
+    (times_and_values(&timed(blocks, 10.0)), csv.finish().0)
+}
+
+fn read(text: &[u8], unit: TimeUnit, delimiter: u8) -> (Samples, Vec<Fault>) {
+    read_with(text, layout(column(unit), char::from(delimiter)))
+}
+
+fn range(ns: i64, mm: f32) -> (i64, Vec<f32>) {
+    (ns, vec![mm])
 }
 
 #[test]
@@ -49,7 +66,7 @@ fn empty_values_are_missing_and_bad_ones_are_reported_with_their_line() {
     let (samples, faults) = read(text, TimeUnit::S, b',');
     assert_eq!(samples, [range(1_000_000_000, 20.0), range(7_000_000_000, 80.0)]);
     let first = "column 'range': 'many' is not a number".to_owned();
-    assert_eq!(faults, [Fault::BadRows { rows: 3, first_line: 5, first }]);
+    assert_eq!(faults, [Fault::BadRows { rows: 3, bytes: 8, first_line: 5, first }]);
 }
 
 #[test]
@@ -62,4 +79,35 @@ fn a_row_without_end_does_not_fill_the_memory() {
     let (samples, faults) = read(&quoted, TimeUnit::S, b',');
     assert_eq!(samples, [range(1_000_000_000, 20.0)]);
     assert!(matches!(faults[..], [Fault::LongLine { .. }]));
+}
+
+#[test]
+fn lines_before_the_names_and_no_names_at_all() {
+    let mut with_lines = layout(column(TimeUnit::S), ',');
+    with_lines.format.skip_lines = 2;
+    let (samples, _) = read_with(b"Fs,50.00\nLogging time,3600\nt,range\n1,2\n", with_lines);
+    assert_eq!(samples, [range(1_000_000_000, 20.0)]);
+    let mut nameless = layout(RowTime { column: Some("#2".to_owned()), ..column(TimeUnit::Ms) }, ',');
+    nameless.format.header = false;
+    nameless.values = vec!["#1".to_owned()];
+    nameless.extra = vec!["#3".to_owned()];
+    let mut csv = CsvSamples::new(&b"2,1500,7\n3,1600,\n"[..], nameless);
+    let block = csv.next_block().unwrap();
+    assert_eq!(block.extra[0][0].to_bits(), 7_f32.to_bits());
+    assert!(block.extra[0][1].is_nan());
+    assert_eq!(times_and_values(&timed([block], 10.0)), [range(1_500_000_000, 20.0), range(1_600_000_000, 30.0)]);
+}
+
+#[test]
+fn times_as_text() {
+    let text =
+        |format: &str| RowTime { column: Some("t".to_owned()), format: Some(format.to_owned()), ..RowTime::default() };
+    let (samples, faults) = read_with(
+        b"t,range\n2025-06-01 12:00:00.250,1\n2025-06-31 12:00:00.5,1\n",
+        layout(text("%Y-%m-%d %H:%M:%S%.f"), ','),
+    );
+    assert_eq!(samples, [range(1_748_779_200_250_000_000, 10.0)]);
+    assert!(matches!(faults[..], [Fault::BadRows { rows: 1, .. }]), "{faults:?}");
+    let (samples, _) = read_with(b"t,range\n2025-06-01T14:00:00+0200,1\n", layout(text("%Y-%m-%dT%H:%M:%S%z"), ','));
+    assert_eq!(samples, [range(1_748_779_200_000_000_000, 10.0)]);
 }

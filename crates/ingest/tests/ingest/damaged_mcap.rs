@@ -9,7 +9,8 @@ fn read_all(bytes: &[u8]) -> Result<(Vec<Sample>, Vec<Vec<u8>>), String> {
     let mut file = tempfile::NamedTempFile::new().unwrap();
     std::io::Write::write_all(&mut file, bytes).unwrap();
     let mut reader = SessionReader::open(file.path()).map_err(|error| error.to_string())?;
-    let samples = reader.samples().collect::<Result<_, _>>().map_err(|error| error.to_string())?;
+    let mut samples = Vec::new();
+    reader.for_each_sample(|sample| samples.push(sample)).map_err(|error| error.to_string())?;
     let mut images = Vec::new();
     for entry in reader.images().map_err(|error| error.to_string())? {
         images.push(reader.image_bytes(&entry.file).map_err(|error| error.to_string())?);

@@ -1,9 +1,11 @@
 //! Packets: both orders, both byte orders, missing samples, truncated files, bad stamps.
 
-use aim_batch_ingest::Sample;
-use aim_batch_ingest::parse::{Converter, Fault, PacketError, PacketParser, PacketSamples};
-use aim_batch_ingest::profile::{Axis, Endian, HeaderField, PacketLayout, SampleOrder, Scalar};
-use model::UtcNs;
+use aim_batch_ingest::parse::{Converter, Fault, PacketError, PacketParser, PacketSamples, RawBlock};
+use aim_batch_ingest::profile::{
+    Axis, Endian, HeaderField, PacketLayout, PacketStamp, SampleOrder, Scalar, StampAt, Step, TimeUnit,
+};
+
+use crate::support::{timed, times_and_values};
 
 const STAMP_S: f64 = 1_700_000_000.25;
 const STAMP_NS: i64 = 1_700_000_000_250_000_000;
@@ -15,6 +17,8 @@ fn field(name: &str, scalar: Scalar) -> HeaderField {
 fn layout(order: SampleOrder, endian: Endian) -> PacketLayout {
     PacketLayout {
         header: vec![field("serial", Scalar::U16), field("stamp", Scalar::F64), field("flags", Scalar::U8)],
+        stamp: PacketStamp::default(),
+        step: Step::Nominal,
         endian,
         sample_type: Scalar::I16,
         channels: ["x", "y", "optical", "z"].map(str::to_owned).to_vec(),
@@ -40,77 +44,148 @@ fn packet(endian: Endian, values: &[i16]) -> Vec<u8> {
     bytes
 }
 
-fn expected() -> Vec<Sample> {
+fn expected() -> Vec<(i64, Vec<f32>)> {
     // Counts (x, y, z): (2, 10, 0), missing, (-1, -1, 6).
-    let sample = |ns, g| Sample::Acceleration { time: UtcNs(STAMP_NS + ns), g };
-    vec![sample(0, [5.0, 0.0, 2.0]), sample(200_000_000, [-0.5, 1.5, 5.0])]
+    vec![(STAMP_NS, vec![5.0, 0.0, 2.0]), (STAMP_NS + 200_000_000, vec![-0.5, 1.5, 5.0])]
 }
+
+fn parser(layout: &PacketLayout) -> PacketParser {
+    PacketParser::new(layout, &["optical".to_owned()], converter()).unwrap()
+}
+
+fn all<R: std::io::Read>(packets: &mut PacketSamples<R>) -> Vec<RawBlock> {
+    std::iter::from_fn(|| packets.next_block()).collect()
+}
+
+const VALUES: [i16; 12] = [2, -1, -1, 10, -1, -1, 70, 71, 72, 0, -1, 6];
 
 #[test]
 fn both_orders_and_both_byte_orders_give_the_same_samples() {
-    let channel_major = [2, -1, -1, 10, -1, -1, 70, 71, 72, 0, -1, 6];
     let interleaved = [2, 10, 70, 0, -1, -1, 71, -1, -1, -1, 72, 6];
     for endian in [Endian::Little, Endian::Big] {
-        for (order, values) in [(SampleOrder::ChannelMajor, channel_major), (SampleOrder::Interleaved, interleaved)] {
-            let parser = PacketParser::new(&layout(order, endian), 10.0, converter()).unwrap();
-            let mut samples = Vec::new();
-            parser.parse(&packet(endian, &values), &mut samples).unwrap();
-            assert_eq!(samples, expected(), "{order:?} {endian:?}");
+        for (order, values) in [(SampleOrder::ChannelMajor, VALUES), (SampleOrder::Interleaved, interleaved)] {
+            let block = parser(&layout(order, endian)).parse(&packet(endian, &values)).unwrap();
+            assert_eq!((block.missing, block.extra.clone()), (1, vec![vec![70.0, 72.0]]), "{order:?} {endian:?}");
+            assert_eq!(times_and_values(&timed([block], 10.0)), expected(), "{order:?} {endian:?}");
         }
     }
 }
 
-#[test]
-fn every_type_of_stamp_gives_its_time() {
-    let stamped = |scalar: Scalar, stamp: &[u8]| {
-        let layout = PacketLayout {
-            header: vec![field("stamp", scalar)],
-            channels: vec!["range".to_owned()],
-            samples: 1,
-            ..layout(SampleOrder::ChannelMajor, Endian::Little)
-        };
-        let parser = PacketParser::new(&layout, 10.0, Converter::Range { mm_per_count: 2.0 }).unwrap();
-        let mut samples = Vec::new();
-        parser.parse(&[stamp, &300_i16.to_le_bytes()].concat(), &mut samples).map(|()| samples)
+/// A packet of one range sample with that stamp.
+fn stamped(scalar: Scalar, unit: TimeUnit, stamp: &[u8]) -> Result<Vec<(i64, Vec<f32>)>, PacketError> {
+    let layout = PacketLayout {
+        header: vec![field("stamp", scalar)],
+        stamp: PacketStamp { unit, ..PacketStamp::default() },
+        channels: vec!["range".to_owned()],
+        samples: 1,
+        ..layout(SampleOrder::ChannelMajor, Endian::Little)
     };
-    let at = |ns: i64| Ok(vec![Sample::Range { time: UtcNs(ns), mm: 600.0 }]);
-    let whole = 1_700_000_000_000_000_000;
-    assert_eq!(stamped(Scalar::U32, &1_700_000_000_u32.to_le_bytes()), at(whole));
-    assert_eq!(stamped(Scalar::U64, &1_700_000_000_u64.to_le_bytes()), at(whole));
-    assert_eq!(stamped(Scalar::I64, &1_700_000_000_i64.to_le_bytes()), at(whole));
-    assert_eq!(stamped(Scalar::F64, &STAMP_S.to_le_bytes()), at(STAMP_NS));
-    for bad in [f64::NAN, f64::INFINITY, -1.0, 1e300] {
-        assert!(matches!(stamped(Scalar::F64, &bad.to_le_bytes()), Err(PacketError::Stamp(_))), "{bad}");
-    }
-    assert!(matches!(stamped(Scalar::I64, &(-5_i64).to_le_bytes()), Err(PacketError::Stamp(_))));
-    assert!(matches!(stamped(Scalar::U64, &u64::MAX.to_le_bytes()), Err(PacketError::Stamp(_))));
+    let parser = PacketParser::new(&layout, &[], Converter::Range { mm_per_count: 2.0 }).unwrap();
+    let block = parser.parse(&[stamp, &300_i16.to_le_bytes()].concat())?;
+    Ok(times_and_values(&timed([block], 10.0)))
 }
 
 #[test]
-fn a_slice_that_is_not_one_packet_is_refused() {
-    let parser = PacketParser::new(&layout(SampleOrder::Interleaved, Endian::Big), 10.0, converter()).unwrap();
-    let mut samples = Vec::new();
-    assert_eq!(parser.parse(&[0; 34], &mut samples), Err(PacketError::Length { expected: 35, got: 34 }));
-    assert!(samples.is_empty());
+fn every_type_and_unit_of_stamp_gives_its_time() {
+    let at = |ns: i64| Ok(vec![(ns, vec![600.0])]);
+    let whole = 1_700_000_000_000_000_000;
+    assert_eq!(stamped(Scalar::U32, TimeUnit::S, &1_700_000_000_u32.to_le_bytes()), at(whole));
+    assert_eq!(stamped(Scalar::U64, TimeUnit::Ms, &1_700_000_000_000_u64.to_le_bytes()), at(whole));
+    assert_eq!(stamped(Scalar::I64, TimeUnit::Ns, &(whole + 1).to_le_bytes()), at(whole + 1));
+    assert_eq!(stamped(Scalar::F64, TimeUnit::S, &STAMP_S.to_le_bytes()), at(STAMP_NS));
+    assert_eq!(stamped(Scalar::F64, TimeUnit::Us, &1_700_000_000_250_000_f64.to_le_bytes()), at(STAMP_NS));
+    for bad in [f64::NAN, f64::INFINITY, -1.0, 1e300] {
+        assert!(matches!(stamped(Scalar::F64, TimeUnit::S, &bad.to_le_bytes()), Err(PacketError::Stamp(_))), "{bad}");
+    }
+    assert!(matches!(stamped(Scalar::I64, TimeUnit::S, &(-5_i64).to_le_bytes()), Err(PacketError::Stamp(_))));
+    assert!(matches!(stamped(Scalar::U64, TimeUnit::S, &u64::MAX.to_le_bytes()), Err(PacketError::Stamp(_))));
+}
+
+#[test]
+fn a_stamp_may_be_the_first_the_last_or_the_end() {
+    let first_ns = |at: StampAt| {
+        let stamp = PacketStamp { at, ..PacketStamp::default() };
+        let layout = PacketLayout { stamp, ..layout(SampleOrder::ChannelMajor, Endian::Little) };
+        let block = parser(&layout).parse(&packet(Endian::Little, &VALUES)).unwrap();
+        times_and_values(&timed([block], 10.0))[0].0 - STAMP_NS
+    };
+    assert_eq!(first_ns(StampAt::First), 0);
+    assert_eq!(first_ns(StampAt::Last), -200_000_000);
+    assert_eq!(first_ns(StampAt::End), -300_000_000);
+}
+
+/// A file of packets of 35 bytes, one second apart.
+fn file(packets: u32) -> Vec<u8> {
+    let one = |i: u32| {
+        let mut bytes = packet(Endian::Little, &VALUES);
+        bytes[2..10].copy_from_slice(&(STAMP_S + f64::from(i)).to_le_bytes());
+        bytes
+    };
+    (0..packets).flat_map(one).collect()
+}
+
+/// Seconds after the first packet of those that are read, and what was wrong.
+fn read(file: &[u8]) -> (Vec<i64>, Vec<Fault>) {
+    let mut packets = PacketSamples::new(file, parser(&layout(SampleOrder::ChannelMajor, Endian::Little)), true);
+    let blocks = timed(all(&mut packets), 10.0);
+    let seconds = blocks.iter().map(|block| (block.times.first().0 - STAMP_NS) / 1_000_000_000).collect();
+    (seconds, packets.finish().0)
 }
 
 #[test]
 fn the_whole_packets_of_a_truncated_file_are_used() {
-    let parser = PacketParser::new(&layout(SampleOrder::ChannelMajor, Endian::Little), 10.0, converter()).unwrap();
-    let one = packet(Endian::Little, &[2, -1, -1, 10, -1, -1, 70, 71, 72, 0, -1, 6]);
-    let mut unstamped = one.clone();
-    unstamped[2..10].copy_from_slice(&f64::NAN.to_le_bytes());
-    let file = [&one[..], &unstamped, &one, &one[..20]].concat();
-    let mut packets = PacketSamples::new(file.as_slice(), parser);
-    let mut samples = Vec::new();
-    while packets.next_batch(&mut samples) {}
-    assert_eq!(samples, [expected(), expected()].concat());
-    let (faults, _) = packets.finish();
-    assert_eq!(
-        faults,
-        [
-            Fault::BadStamp { packets: 1, first_offset: 35, first: "NaN".to_owned() },
-            Fault::TruncatedPacket { packet: 4, offset: 105, expected: 35, got: 20 },
-        ]
+    let mut bytes = file(4);
+    bytes[35 + 2..35 + 10].copy_from_slice(&f64::NAN.to_le_bytes());
+    bytes.truncate(125);
+    let (seconds, faults) = read(&bytes);
+    assert_eq!(seconds, [0, 2]);
+    assert!(
+        matches!(
+            &faults[..],
+            [
+                Fault::BadStamp { packets: 1, bytes: 35, first_offset: 35, .. },
+                Fault::TruncatedPacket { offset: 105, expected: 35, got: 20, samples: 0 },
+            ]
+        ),
+        "{faults:?}"
     );
+}
+
+#[test]
+fn of_a_cut_packet_the_samples_that_have_all_channels_are_used() {
+    let layout = layout(SampleOrder::Interleaved, Endian::Little);
+    let values = [2, 10, 70, 0, 2, 10, 71, 0, 2, 10, 72, 0];
+    let cut = &packet(Endian::Little, &values)[..35 - 3];
+    let mut packets = PacketSamples::new(cut, parser(&layout), true);
+    assert_eq!(all(&mut packets).iter().map(RawBlock::len).collect::<Vec<_>>(), [2]);
+    let faults = packets.finish().0;
+    assert!(matches!(faults[..], [Fault::TruncatedPacket { samples: 2, .. }]), "{faults:?}");
+}
+
+#[test]
+fn a_block_of_zeros_is_left_out_and_counted() {
+    let mut bytes = file(5);
+    bytes[35..105].fill(0);
+    bytes.extend([0; 20]);
+    let (seconds, faults) = read(&bytes);
+    assert_eq!(seconds, [0, 3, 4]);
+    assert_eq!(faults, [Fault::Zeros { bytes: 90, first_offset: 35 }]);
+}
+
+#[test]
+fn where_bytes_are_lost_the_next_packet_is_found() {
+    let mut bytes = file(6);
+    bytes.drain(80..91); // inside the third packet
+    let (seconds, faults) = read(&bytes);
+    assert_eq!(seconds, [0, 1, 3, 4, 5]);
+    assert_eq!(faults, [Fault::LostAlignment { bytes: 24, places: 1, first_offset: 70 }]);
+}
+
+#[test]
+fn where_bytes_are_inserted_the_next_packet_is_found() {
+    let bytes = file(6);
+    let bytes = [&bytes[..70], &[0xee; 17], &bytes[70..]].concat();
+    let (seconds, faults) = read(&bytes);
+    assert_eq!(seconds, [0, 2, 3, 4, 5], "whether the second packet is whole cannot be told");
+    assert!(matches!(faults[..], [Fault::LostAlignment { bytes: 52, .. }]), "{faults:?}");
 }

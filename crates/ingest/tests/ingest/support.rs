@@ -2,6 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use aim_batch_ingest::parse::RawBlock;
+use aim_batch_ingest::profile::{Epoch, Step};
+use aim_batch_ingest::timeline::{Block, Clock, Stepper};
 use aim_batch_ingest::{
     IngestSummary, NoProgress, Profile, Sample, SessionReader, SessionSource, camera, ingest_session,
 };
@@ -33,6 +36,7 @@ impl Study {
             profile: Profile::load(profile, &devices).unwrap(),
             camera_spec: camera::load("small", &devices).unwrap(),
             time_zone: TimeZone::UTC,
+            clock_zero_utc: None,
             program: "test 1".to_owned(),
         };
         Self { dir, source }
@@ -61,8 +65,25 @@ impl Study {
     }
 }
 
+/// The accelerometer's samples, then the range sensor's.
 pub fn samples(reader: &mut SessionReader) -> Vec<Sample> {
-    reader.samples().collect::<Result<_, _>>().unwrap()
+    let mut samples = Vec::new();
+    reader.for_each_sample(|sample| samples.push(sample)).unwrap();
+    samples
+}
+
+/// Blocks with times of a clock that counts from 1970 UTC.
+pub fn timed(blocks: impl IntoIterator<Item = RawBlock>, rate_hz: f64) -> Vec<Block> {
+    let mut stepper = Stepper::new(Clock::new(Epoch::Unix, None, TimeZone::UTC), Step::Nominal, rate_hz);
+    let mut timed: Vec<Block> = blocks.into_iter().filter_map(|block| stepper.push(block).unwrap()).collect();
+    timed.extend(stepper.finish());
+    timed
+}
+
+/// Times in ns and values of all samples.
+pub fn times_and_values(blocks: &[Block]) -> Vec<(i64, Vec<f32>)> {
+    let values = |block: &Block, i: usize| block.channels.iter().map(|channel| channel[i]).collect();
+    blocks.iter().flat_map(|block| block.times.each().enumerate().map(move |(i, t)| (t.0, values(block, i)))).collect()
 }
 
 /// A packet of the built-in profile aim2-packets: stamp, then the channels one after the other, 1022 values each.

@@ -118,6 +118,7 @@ fn fill(
         profile: study.profile.clone(),
         camera_spec,
         time_zone: study.time_zone.clone(),
+        clock_zero_utc: spec.clock_zero_utc,
         program: options.program.clone(),
     };
     reporter.stage(&dir.name, Stage::Ingest);

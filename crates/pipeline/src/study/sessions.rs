@@ -21,6 +21,8 @@ pub struct SessionSpec {
     pub camera: Option<String>,
     /// Camera of this session's marked pictures, if those are not the raw ones.
     pub marks_camera: Option<String>,
+    /// When a clock that counts from the device's start was zero.
+    pub clock_zero_utc: Option<jiff::Timestamp>,
 }
 
 /// Where one session's files are.

@@ -1,0 +1,98 @@
+//! In which order the files of a sensor are read.
+
+use std::fs::File;
+use std::io::{BufReader, Read};
+
+use jiff::tz::TimeZone;
+use model::UtcNs;
+
+use super::CardFile;
+use super::decoder::{Decoder, Layout};
+use crate::parse::{RawBlock, Stamps, image_time};
+use crate::profile::{Anchor, ClockSpec};
+
+/// What says when boot-relative clocks were zero.
+#[derive(Debug, Clone)]
+pub(crate) struct Anchoring<'a> {
+    pub spec: Option<&'a ClockSpec>,
+    /// As session.toml gives it.
+    pub session: Option<UtcNs>,
+    pub zone: &'a TimeZone,
+}
+
+impl Anchoring<'_> {
+    /// For one file; none when nothing says so.
+    pub fn of_file(&self, file: &CardFile) -> Option<UtcNs> {
+        match &self.spec?.anchor {
+            Anchor::Session {} => self.session,
+            Anchor::Name { pattern } => {
+                let name = file.name.rsplit('/').next().unwrap_or(&file.name);
+                image_time::from_name(name, pattern, self.zone).ok()
+            }
+        }
+    }
+}
+
+/// Files in the order of their first samples, or of their names where the counter may have started anew between them; and
+/// files that are there twice.
+pub(crate) fn in_order(
+    mut files: Vec<CardFile>,
+    layout: &Layout,
+    anchoring: &Anchoring<'_>,
+) -> (Vec<CardFile>, Vec<(CardFile, CardFile)>) {
+    let first = |file: &CardFile| (!layout.is_wrapping()).then(|| first_time(file, layout, anchoring));
+    files.sort_by_cached_key(|file| (first(file), file.name.clone()));
+    let mut kept: Vec<CardFile> = Vec::new();
+    let mut twice = Vec::new();
+    for file in files {
+        let same = kept.iter().rev().take(8).find(|other| other.bytes == file.bytes && same_bytes(other, &file));
+        match same {
+            Some(other) if file.bytes > 0 => twice.push((file, other.clone())),
+            _ => kept.push(file),
+        }
+    }
+    (kept, twice)
+}
+
+fn first_time(file: &CardFile, layout: &Layout, anchoring: &Anchoring<'_>) -> Option<UtcNs> {
+    let mut decoder = Decoder::new(File::open(&file.path).ok()?, layout);
+    let mut clock = layout.clock(anchoring.zone);
+    clock.anchor = anchoring.of_file(file);
+    loop {
+        let RawBlock { stamps, .. } = decoder.next_block()?;
+        let ns = match stamps {
+            Stamps::Packet { ns, .. } => Some(ns),
+            Stamps::Each(stamps) => stamps.first().copied(),
+            Stamps::Counted { .. } => return clock.anchor,
+        };
+        if let Some(time) = ns.and_then(|ns| clock.utc(ns).ok()) {
+            return Some(time);
+        }
+    }
+}
+
+/// Rows of a file, missing and damaged ones included.
+pub(crate) fn count_rows(file: &CardFile, layout: &Layout) -> u64 {
+    let Ok(reader) = File::open(&file.path) else { return 0 };
+    let mut decoder = Decoder::new(reader, layout);
+    let mut rows = 0;
+    while let Some(block) = decoder.next_block() {
+        if let Stamps::Counted { samples, .. } = block.stamps {
+            rows += u64::from(samples);
+        }
+    }
+    rows
+}
+
+fn same_bytes(a: &CardFile, b: &CardFile) -> bool {
+    let (Ok(a), Ok(b)) = (File::open(&a.path), File::open(&b.path)) else { return false };
+    let (mut a, mut b) =
+        (BufReader::with_capacity(64 * 1024, a).bytes(), BufReader::with_capacity(64 * 1024, b).bytes());
+    loop {
+        match (a.next(), b.next()) {
+            (None, None) => return true,
+            (Some(Ok(a)), Some(Ok(b))) if a == b => {}
+            _ => return false,
+        }
+    }
+}

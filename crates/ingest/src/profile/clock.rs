@@ -1,0 +1,71 @@
+//! What the numbers of a clock mean.
+
+use serde::{Deserialize, Serialize};
+
+/// Unit of a time.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TimeUnit {
+    /// Seconds.
+    #[default]
+    S,
+    /// Milliseconds.
+    Ms,
+    /// Microseconds.
+    Us,
+    /// Nanoseconds.
+    Ns,
+}
+
+impl TimeUnit {
+    /// Nanoseconds in one unit, as a power of ten.
+    #[must_use]
+    pub fn power_of_ten_ns(self) -> u32 {
+        match self {
+            Self::S => 9,
+            Self::Ms => 6,
+            Self::Us => 3,
+            Self::Ns => 0,
+        }
+    }
+
+    /// Nanoseconds in one unit.
+    #[must_use]
+    pub fn ns(self) -> i64 {
+        10_i64.pow(self.power_of_ten_ns())
+    }
+}
+
+/// What a time counts from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Epoch {
+    /// 1970-01-01 00:00 UTC.
+    #[default]
+    Unix,
+    /// 1970-01-01 00:00 on the wall clock of the study's time zone: local time written as if it were UTC.
+    Local,
+    /// When the device was started: `[clock] anchor` says when that was.
+    Boot,
+}
+
+/// `[clock]`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClockSpec {
+    /// When the counter of a clock with epoch `boot` was zero.
+    pub anchor: Anchor,
+}
+
+/// When a boot-relative clock was zero.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "from", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Anchor {
+    /// `clock_zero_utc` of session.toml.
+    Session {},
+    /// The name of each sensor file.
+    Name {
+        /// strptime pattern of the name, as for images.
+        pattern: String,
+    },
+}

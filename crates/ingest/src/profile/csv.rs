@@ -1,0 +1,79 @@
+//! How samples lie in CSV files.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Epoch, TimeUnit};
+
+/// What a CSV file looks like, whatever its columns.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CsvFormat {
+    /// What separates columns: one ASCII character.
+    pub delimiter: char,
+    /// Lines before the line of column names.
+    pub skip_lines: u32,
+    /// Whether there is a line of column names; without one, columns are called `#1`, `#2` and so on.
+    pub header: bool,
+}
+
+impl Default for CsvFormat {
+    fn default() -> Self {
+        Self { delimiter: ',', skip_lines: 0, header: true }
+    }
+}
+
+/// What gives a row its time: exactly one of `column` and `rows_per_s` and `rows_over_s`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RowTime {
+    /// The column with the time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub column: Option<String>,
+    /// Unit of its numbers. Either this or `format`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<TimeUnit>,
+    /// strptime pattern of its texts; one without a zone is in the study's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub format: Option<String>,
+    /// What its numbers count from.
+    pub epoch: Epoch,
+    /// The counter starts anew after 2^`wrap_bits` units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wrap_bits: Option<u32>,
+    /// There is no column: so many rows are a second, from the anchor on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rows_per_s: Option<f64>,
+    /// There is no column: the rows of a file are spread evenly over so many seconds, from the anchor on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rows_over_s: Option<f64>,
+}
+
+/// Columns of an accelerometer's CSV file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AccelerationColumns {
+    /// Time.
+    pub time: RowTime,
+    /// Sensor x, in counts.
+    pub x: String,
+    /// Sensor y, in counts.
+    pub y: String,
+    /// Sensor z, in counts.
+    pub z: String,
+    /// The file.
+    #[serde(default)]
+    pub format: CsvFormat,
+}
+
+/// Columns of a range sensor's CSV file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RangeColumns {
+    /// Time.
+    pub time: RowTime,
+    /// Reading, in counts.
+    pub range: String,
+    /// The file.
+    #[serde(default)]
+    pub format: CsvFormat,
+}

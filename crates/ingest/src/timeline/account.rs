@@ -1,0 +1,158 @@
+//! The account of one sensor's clock, kept while its blocks pass.
+
+use model::UtcNs;
+
+use super::block::{Block, Times};
+use super::facts::{ClockJump, LISTED, Span, StreamFacts};
+
+/// Keeps the account of one time line. Bounded: lists end at [`LISTED`].
+#[derive(Debug)]
+pub(super) struct Account {
+    pub facts: StreamFacts,
+    /// Last time and packet number of the stretch.
+    last: Option<(UtcNs, Option<u32>)>,
+    /// The clock was set back before the next block.
+    is_set_back: bool,
+    steps: u64,
+    steps_s: f64,
+}
+
+impl Account {
+    pub fn new(nominal_rate_hz: f64, gap_s: f64) -> Self {
+        let facts = StreamFacts { nominal_rate_hz, gap_s, ..StreamFacts::default() };
+        Self { facts, last: None, is_set_back: false, steps: 0, steps_s: 0.0 }
+    }
+
+    /// Last time of the stretch.
+    pub fn newest(&self) -> Option<UtcNs> {
+        self.last.map(|(newest, _)| newest)
+    }
+
+    /// The next block begins a new stretch, at an earlier time.
+    pub fn set_back(&mut self) {
+        self.is_set_back = true;
+    }
+
+    /// Whether nothing that was accounted for overlaps these times: they lie after it, or in a listed gap.
+    pub fn has_hole(&self, begin: UtcNs, end: UtcNs) -> bool {
+        let is_after = self.newest().is_none_or(|newest| newest < begin);
+        let is_before = self.facts.stretches.iter().all(|stretch| end < stretch.from);
+        let in_gap = |gap: &Span| gap.from < begin && end < gap.to;
+        is_after || is_before || self.facts.listed_gaps.iter().any(in_gap)
+    }
+
+    /// The next block in order of time.
+    pub fn add(&mut self, block: &Block) {
+        let (begin, end) = (block.times.first(), block.times.last());
+        match self.last {
+            Some((last, sequence)) => self.between(last, sequence, block),
+            None => self.begin_stretch(begin),
+        }
+        self.steps_within(&block.times);
+        self.cover(block, end);
+        self.last = Some((end, block.sequence));
+    }
+
+    /// A block that comes too late to be put in order, in a hole.
+    pub fn add_late(&mut self, block: &Block) {
+        let (begin, end) = (block.times.first(), block.times.last());
+        let within = |gap: &Span| gap.from < begin && end < gap.to;
+        if let Some(i) = self.facts.listed_gaps.iter().position(within) {
+            let gap = self.facts.listed_gaps.remove(i);
+            self.facts.gaps -= 1;
+            self.facts.gaps_total_s -= gap.seconds();
+            for part in [Span { from: gap.from, to: begin }, Span { from: end, to: gap.to }] {
+                self.step(part);
+            }
+        }
+        self.steps_within(&block.times);
+        self.facts.samples += block.times.len() as u64;
+    }
+
+    pub fn finish(mut self) -> StreamFacts {
+        #[expect(clippy::cast_precision_loss, reason = "2^53 samples are two million years")]
+        let rate_hz = (self.steps > 0 && self.steps_s > 0.0).then(|| self.steps as f64 / self.steps_s);
+        self.facts.measured_rate_hz = rate_hz;
+        let (from, to) =
+            (self.facts.stretches.iter().map(|s| s.from).min(), self.facts.stretches.iter().map(|s| s.to).max());
+        self.facts.span = from.zip(to).map(|(from, to)| Span { from, to });
+        self.facts
+    }
+
+    fn between(&mut self, last: UtcNs, sequence: Option<u32>, block: &Block) {
+        let begin = block.times.first();
+        let follows = sequence.zip(block.sequence).is_some_and(|(last, this)| last.wrapping_add(1) == this);
+        let is_set_forward = follows && begin.seconds_since(last) > self.facts.gap_s;
+        if self.is_set_back || is_set_forward {
+            self.is_set_back = false;
+            let jump = ClockJump { at: last, by_s: begin.seconds_since(last) };
+            self.facts.jumps += 1;
+            if self.facts.clock_jumps.len() < LISTED {
+                self.facts.clock_jumps.push(jump);
+            }
+            self.begin_stretch(begin);
+        } else {
+            self.step(Span { from: last, to: begin });
+        }
+    }
+
+    /// Stretches beyond the list's end grow its last one, so that nothing that exists twice passes for unique.
+    fn begin_stretch(&mut self, begin: UtcNs) {
+        if self.facts.stretches.len() < LISTED {
+            self.facts.stretches.push(Span { from: begin, to: begin });
+        } else if let Some(last) = self.facts.stretches.last_mut() {
+            last.from = last.from.min(begin);
+        }
+    }
+
+    fn cover(&mut self, block: &Block, end: UtcNs) {
+        self.facts.samples += block.times.len() as u64;
+        if let Some(stretch) = self.facts.stretches.last_mut() {
+            stretch.to = stretch.to.max(end);
+        }
+    }
+
+    fn steps_within(&mut self, times: &Times) {
+        match times {
+            Times::Even { step_ns, samples, .. } if *samples > 1 => {
+                let step_s = step_ns / 1e9;
+                if step_s > self.facts.gap_s {
+                    times.each().zip(times.each().skip(1)).for_each(|(from, to)| self.step(Span { from, to }));
+                    return;
+                }
+                #[expect(clippy::cast_precision_loss, reason = "a block has far fewer than 2^53 samples")]
+                let total_s = (samples - 1) as f64 * step_s;
+                self.steps += *samples as u64 - 1;
+                self.steps_s += total_s;
+                self.note_step(step_s);
+            }
+            Times::Even { .. } => {}
+            Times::Each(times) => {
+                for pair in times.windows(2) {
+                    self.step(Span { from: pair[0], to: pair[1] });
+                }
+            }
+        }
+    }
+
+    fn step(&mut self, step: Span) {
+        let seconds = step.seconds();
+        if seconds > self.facts.gap_s {
+            self.facts.gaps += 1;
+            self.facts.gaps_total_s += seconds;
+            if self.facts.listed_gaps.len() < LISTED {
+                self.facts.listed_gaps.push(step);
+            }
+            return;
+        }
+        self.steps += 1;
+        self.steps_s += seconds;
+        self.note_step(seconds);
+    }
+
+    fn note_step(&mut self, seconds: f64) {
+        let facts = &mut self.facts;
+        facts.shortest_step_s = Some(facts.shortest_step_s.map_or(seconds, |shortest| shortest.min(seconds)));
+        facts.longest_step_s = Some(facts.longest_step_s.map_or(seconds, |longest| longest.max(seconds)));
+    }
+}
