@@ -3,6 +3,7 @@
 
 mod convert;
 mod csv_file;
+pub mod cwa;
 mod decimal;
 mod fault;
 pub mod image_header;

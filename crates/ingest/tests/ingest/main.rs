@@ -5,6 +5,7 @@ mod arbitrary_bytes;
 mod broken_cards;
 mod configuration;
 mod csv_files;
+mod cwa_files;
 mod damaged_mcap;
 mod image_times;
 mod packets;
