@@ -5,6 +5,7 @@
 
 mod bad_input;
 mod documents;
+mod flow;
 mod layers;
 mod measure;
 mod project;

@@ -37,7 +37,7 @@ pub enum Command {
     Run(RunArgs),
     /// One SD card to one MCAP file
     Ingest(IngestArgs),
-    /// Tables again, from the results alone
+    /// Tables again, from the files that run wrote
     Report(ReportArgs),
     /// Pixels to points on a level plane (CSV on stdin and stdout), or back
     #[command(allow_negative_numbers = true)]
@@ -115,7 +115,7 @@ pub struct IngestArgs {
 /// `report`.
 #[derive(Debug, clap::Args)]
 pub struct ReportArgs {
-    /// results.parquet of a run
+    /// results.parquet of a run; the ledger of images, frames.parquet, is looked for beside it
     pub results: PathBuf,
     /// Folder for the tables (CSV, Markdown, LaTeX); without it they are only printed
     #[arg(short, long)]

@@ -91,7 +91,7 @@ pub enum RowKind {
     Row,
     /// Mean and SD of an object's errors.
     ObjectMean,
-    /// Mean and SD over the table.
+    /// Mean and SD over the table; of numbers of images, their sums.
     Overall,
     /// The same, of errors against the truths that were printed.
     OverallPrintedTruth,

@@ -8,7 +8,7 @@ use crate::atomic::{self, FileError};
 use crate::parquet::Results;
 use crate::render::{csv, latex, markdown};
 use crate::table::Table;
-use crate::tables::{error_by_height, error_by_pitch, sizes, tables};
+use crate::tables::{error_by_height, error_by_pitch, flow, left_out, sizes, tables};
 
 /// Tables that could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -41,8 +41,8 @@ pub enum WriteError {
 }
 
 /// Writes every table as .csv, .md and .tex (`table_II.csv`, ..., `sizes.csv`, `error_by_pitch.csv`,
-/// `error_by_height.csv`), and all
-/// of them as `tables.md`. Makes the folder if need be; every file is written aside and renamed.
+/// `error_by_height.csv`, and `flow.csv` and `left_out.csv` where the ledger was read), and all of them as `tables.md`.
+/// Makes the folder if need be; every file is written aside and renamed.
 ///
 /// # Errors
 /// [`WriteError`]. Ids are checked before anything is written.
@@ -59,10 +59,11 @@ pub fn write_dir(results: &Results, dir: &Path) -> Result<(), WriteError> {
     Ok(atomic::write(&dir.join("tables.md"), all_markdown(&tables, results).as_bytes())?)
 }
 
-/// The tables of the study, the sizes, and error by pitch and by height.
+/// The tables of the study, the sizes, error by pitch and by height, and what became of the images.
 pub(crate) fn every_table(results: &Results) -> Vec<Table> {
     let mut tables = tables(results);
     tables.extend([sizes(results), error_by_pitch(results), error_by_height(results)]);
+    tables.extend([flow(results), left_out(results)].into_iter().flatten());
     tables
 }
 

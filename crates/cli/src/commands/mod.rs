@@ -29,7 +29,8 @@ fn tell(text: &str) -> io::Result<()> {
     io::stderr().write_all(text.as_bytes())
 }
 
-/// The tables of a run, as wide as the terminal, if stdout is one: those that the study asks for, or the sizes if it asks for none.
+/// The tables of a run, as wide as the terminal, if stdout is one: those that the study asks for, or the sizes if it asks for none,
+/// then the errors by pitch and height, and what became of the images.
 fn tables_text(results: &::report::Results) -> String {
     let mut tables = ::report::tables(results);
     if tables.is_empty() {
@@ -37,6 +38,7 @@ fn tables_text(results: &::report::Results) -> String {
     }
     let by_band = [::report::error_by_pitch(results), ::report::error_by_height(results)];
     tables.extend(by_band.into_iter().filter(|table| !table.rows.is_empty()));
+    tables.extend([::report::flow_in_short(results), ::report::left_out(results)].into_iter().flatten());
     let width = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
     ::report::terminal_set(&tables, width)
 }

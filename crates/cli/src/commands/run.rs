@@ -1,7 +1,5 @@
 //! `run`: the main job.
 
-use std::path::{Path, PathBuf};
-
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
 use pipeline::study::StudySpec;
@@ -18,7 +16,7 @@ use crate::progress::Bars;
 pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Failure> {
     check(args)?;
     let study = Study::load(&args.study, |spec| apply(args, spec)).map_err(Failure::usage)?;
-    let frames = frames_file(&args.out);
+    let frames = ::report::frames_file(&args.out);
     let options = RunOptions {
         jobs: args.jobs,
         work_dir: args.work.clone().unwrap_or_else(|| args.out.with_extension("work")),
@@ -31,7 +29,8 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     let mut sink = ::report::ParquetSink::create(&args.out, &frames)?;
     let sessions = pipeline::run(&study, &options, &bars.for_run(), &mut sink)?;
 
-    let results = ::report::Results::read(&args.out)?;
+    let mut results = ::report::Results::read(&args.out)?;
+    results.read_flow(&frames)?;
     print(&tables_text(&results))?;
     if let Some(dir) = &args.report {
         ::report::write_dir(&results, dir)?;
@@ -60,14 +59,6 @@ fn apply(args: &RunArgs, spec: &mut StudySpec) {
     }
     if let Some(tolerance_deg) = args.pitch_tolerance {
         spec.select.pitch_tolerance_deg = tolerance_deg;
-    }
-}
-
-/// The second output: `frames.parquet` beside `results.parquet`, `X.frames.parquet` beside `X.parquet`.
-fn frames_file(results: &Path) -> PathBuf {
-    match results.file_stem().map(|stem| stem.to_string_lossy()) {
-        Some(stem) if stem != "results" => results.with_file_name(format!("{stem}.frames.parquet")),
-        _ => results.with_file_name("frames.parquet"),
     }
 }
 

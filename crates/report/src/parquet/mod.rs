@@ -1,5 +1,7 @@
 //! Rows to Parquet files and back. The columns come from the schema in crate `model`, never from a list here.
 
+use std::path::{Path, PathBuf};
+
 mod columns;
 mod read;
 mod row_file;
@@ -12,3 +14,12 @@ pub use sink::{ParquetSink, SinkError};
 const VERSION_KEY: &str = "aim_batch.schema_version";
 /// Key of the run's metadata, as JSON.
 const RUN_KEY: &str = "aim_batch.run";
+
+/// Where the ledger of `results` is: `frames.parquet` beside `results.parquet`, `X.frames.parquet` beside `X.parquet`.
+#[must_use]
+pub fn frames_file(results: &Path) -> PathBuf {
+    match results.file_stem().map(|stem| stem.to_string_lossy()) {
+        Some(stem) if stem != "results" => results.with_file_name(format!("{stem}.frames.parquet")),
+        _ => results.with_file_name("frames.parquet"),
+    }
+}

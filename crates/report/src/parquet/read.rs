@@ -4,8 +4,8 @@ use std::io::{self, Cursor};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
-use model::RunMetadata;
 use model::results::{CellError, Column, ColumnType, FrameRow, RESULTS_SCHEMA_VERSION, ResultRow, Row};
+use model::{RunMetadata, StudyFlow};
 use polars::prelude::{
     DataFrame, DataType, ParallelStrategy, ParquetReader, PolarsError, PolarsResult, SerReader as _, TimeUnit,
 };
@@ -70,6 +70,12 @@ pub enum ReadError {
         /// What is wrong with the JSON.
         source: serde_json::Error,
     },
+    /// Results and ledger are not of one run.
+    #[error("another run wrote this file than the results beside it; run the study again for both: {}", path.display())]
+    OtherRun {
+        /// The ledger.
+        path: PathBuf,
+    },
     /// A column is missing.
     #[error(
         "no column '{column}'; was results.parquet meant, or frames.parquet? Columns must keep their names: {}",
@@ -107,13 +113,15 @@ pub enum ReadError {
     },
 }
 
-/// The results of a run: what `results.parquet` holds.
+/// The results of a run: what `results.parquet` holds, and what `frames.parquet` says of the images.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Results {
     /// Rows, in the order of the file.
     pub rows: Vec<ResultRow>,
     /// What they came from.
     pub metadata: RunMetadata,
+    /// What became of the images; none until [`Results::read_flow`].
+    pub flow: Option<StudyFlow>,
 }
 
 impl Results {
@@ -124,7 +132,22 @@ impl Results {
     /// column or cell of another type.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
         let (rows, metadata) = read_rows(path)?;
-        Ok(Self { rows, metadata })
+        Ok(Self { rows, metadata, flow: None })
+    }
+
+    /// Counts the images in `frames.parquet` (its name: [`frames_file`](super::frames_file)).
+    ///
+    /// # Errors
+    /// As [`Results::read`], and when another run wrote it.
+    pub fn read_flow(&mut self, frames: &Path) -> Result<(), ReadError> {
+        let (rows, metadata): (Vec<FrameRow>, _) = read_rows(frames)?;
+        if metadata != self.metadata {
+            return Err(ReadError::OtherRun { path: frames.to_owned() });
+        }
+        let mut flow = StudyFlow::default();
+        rows.iter().for_each(|frame| flow.add(frame));
+        self.flow = Some(flow);
+        Ok(())
     }
 }
 

@@ -1,14 +1,13 @@
 //! For papers: booktabs and threeparttable.
 
 use super::display::{caption, cell, heading, printable, shown};
-use crate::table::{Align, Column, RowKind, Table};
+use crate::table::{Align, Column, Role, RowKind, Table};
 
 /// The table as a LaTeX float. The document needs `\usepackage{booktabs,threeparttable}`; pdflatex compiles it.
 #[must_use]
 pub fn latex(table: &Table) -> String {
     let columns = shown(table);
-    let alignment: String =
-        columns.iter().map(|(_, column)| if column.align == Align::Left { 'l' } else { 'r' }).collect();
+    let alignment: String = columns.iter().map(|(_, column)| alignment(column)).collect();
     // The float numbers itself; 'Table II.' would stand there twice. The file and the label say which it is.
     let title = printable(&table.title);
     let mut text = format!(
@@ -35,6 +34,15 @@ pub fn latex(table: &Table) -> String {
     text.push_str(&notes(table));
     text.push_str("\\end{threeparttable}\n\\end{table}\n");
     text
+}
+
+/// Sentences wrap; names and numbers do not.
+fn alignment(column: &Column) -> &'static str {
+    match (column.role, column.align) {
+        (Role::Note, _) => "p{0.45\\linewidth}",
+        (_, Align::Left) => "l",
+        (_, Align::Right) => "r",
+    }
 }
 
 /// The heading with a word per line: columns of numbers are narrow.

@@ -3,7 +3,7 @@
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Width, presets};
 
 use super::display::{caption, cell, heading, printable, shown};
-use crate::table::{Align, Table};
+use crate::table::{Align, Column, Role, Table};
 
 /// Names wrap to lines of no fewer characters than this; a terminal that is narrower still breaks numbers, too.
 const NAMES_AT_LEAST: usize = 12;
@@ -57,19 +57,7 @@ fn grid(table: &Table, width: Option<usize>) -> String {
         grid.add_row(row);
     }
     if let Some(width) = width {
-        grid.set_content_arrangement(ContentArrangement::Dynamic);
-        grid.set_width(u16::try_from(width).unwrap_or(u16::MAX));
-        let mut widths = unbroken_widths(&headings, &rows);
-        // Each column takes two spaces and a border more. What is too much is taken from the names, which may wrap.
-        let excess = (widths.iter().map(|width| width + 3).sum::<usize>() + 1).saturating_sub(width);
-        if let Some(names) = widths.first_mut() {
-            *names = names.saturating_sub(excess);
-            if *names >= NAMES_AT_LEAST || excess == 0 {
-                grid.set_constraints(widths.iter().map(|width| {
-                    ColumnConstraint::LowerBoundary(Width::Fixed(u16::try_from(width + 2).unwrap_or(u16::MAX)))
-                }));
-            }
-        }
+        fit(&mut grid, width, unbroken_widths(&columns, &headings, &rows));
     }
     for (place, (_, column)) in columns.iter().enumerate() {
         if let Some(drawn) = grid.column_mut(place) {
@@ -82,15 +70,44 @@ fn grid(table: &Table, width: Option<usize>) -> String {
     grid.to_string()
 }
 
-/// Widths at which no cell and no word of a heading is broken.
-fn unbroken_widths(headings: &[String], rows: &[Vec<String>]) -> Vec<usize> {
+/// Makes the grid as wide as the terminal, and no column narrower than `widths` where that can be.
+fn fit(grid: &mut comfy_table::Table, width: usize, mut widths: Vec<usize>) {
+    grid.set_content_arrangement(ContentArrangement::Dynamic);
+    grid.set_width(to_u16(width));
+    let Some(names) = widths.first().copied() else { return };
+    // Each column takes its spaces and a border more.
+    let needed = |spaces: usize| widths.iter().map(|width| width + spaces + 1).sum::<usize>() + 1;
+    // What is too much is taken from the space before cells if that is enough, else from the names, which may wrap.
+    let choices = [(2, names), (1, names), (2, NAMES_AT_LEAST), (1, NAMES_AT_LEAST)];
+    let fitting = choices.into_iter().find_map(|(spaces, names_at_least)| {
+        let left = names.checked_sub(needed(spaces).saturating_sub(width))?;
+        (left >= names_at_least.min(names)).then_some((spaces, left))
+    });
+    let Some((spaces, left)) = fitting else { return };
+    widths[0] = left;
+    if spaces == 1 {
+        grid.column_iter_mut().for_each(|column| {
+            column.set_padding((0, 1));
+        });
+    }
+    let at_least = |width: &usize| ColumnConstraint::LowerBoundary(Width::Fixed(to_u16(width + spaces)));
+    grid.set_constraints(widths.iter().map(at_least));
+}
+
+fn to_u16(width: usize) -> u16 {
+    u16::try_from(width).unwrap_or(u16::MAX)
+}
+
+/// Widths at which no cell and no word of a heading is broken; sentences may wrap between their words.
+fn unbroken_widths(columns: &[(usize, &Column)], headings: &[String], rows: &[Vec<String>]) -> Vec<usize> {
     let length = |text: &str| text.chars().count();
-    (0..headings.len())
-        .map(|place| {
-            let words = headings[place].split(' ').map(length);
-            words.chain(rows.iter().map(|row| length(&row[place]))).max().unwrap_or(0)
-        })
-        .collect()
+    let longest_word = |text: &str| text.split(' ').map(length).max().unwrap_or(0);
+    let unbroken = |(place, (_, column)): (usize, &(usize, &Column))| {
+        let of_cell = |text: &str| if column.role == Role::Note { longest_word(text) } else { length(text) };
+        let cells = rows.iter().map(|row| of_cell(&row[place]));
+        cells.chain([longest_word(&headings[place])]).max().unwrap_or(0)
+    };
+    columns.iter().enumerate().map(unbroken).collect()
 }
 
 /// Words on lines of at most `width` characters.

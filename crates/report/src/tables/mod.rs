@@ -2,7 +2,9 @@
 
 mod bands;
 mod errors;
+mod flow;
 mod footnotes;
+mod left_out;
 mod printed;
 mod raters;
 mod select;
@@ -12,6 +14,8 @@ mod sizes;
 use model::{TableLayout, TableSpec};
 
 pub use bands::{error_by_height, error_by_pitch};
+pub use flow::{flow, flow_in_short};
+pub use left_out::left_out;
 pub use sizes::sizes;
 
 use crate::parquet::Results;

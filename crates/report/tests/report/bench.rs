@@ -101,7 +101,7 @@ pub fn results(rows: Vec<ResultRow>, tables: Vec<TableSpec>) -> Results {
         sessions: Vec::new(),
         inputs_sha256: std::collections::BTreeMap::from([("objects.csv".to_owned(), "00ff".to_owned())]),
     };
-    Results { rows, metadata }
+    Results { rows, metadata, flow: None }
 }
 
 /// Two plates at two setups, one size missing: errors -5, 5 and 5 %.

@@ -7,6 +7,7 @@ mod bench;
 mod compare;
 mod escaping;
 mod files;
+mod flow;
 mod golden;
 mod misuse;
 mod parquet;

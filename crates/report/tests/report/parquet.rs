@@ -65,7 +65,7 @@ proptest! {
         let metadata = RunMetadata { study, ..bench::plates().metadata };
         write(dir.path(), &[(&results, &frames)], &metadata);
         let read = Results::read(&dir.path().join("results.parquet")).unwrap();
-        prop_assert_eq!(read, Results { rows: results, metadata });
+        prop_assert_eq!(read, Results { rows: results, metadata, flow: None });
         prop_assert_eq!(read_frames(&dir.path().join("frames.parquet")).unwrap(), frames);
     }
 }
@@ -100,6 +100,6 @@ fn a_run_without_rows_writes_files_that_can_be_read() {
     let metadata = bench::plates().metadata;
     write(dir.path(), &[], &metadata);
     let read = Results::read(&dir.path().join("results.parquet")).unwrap();
-    assert_eq!(read, Results { rows: Vec::new(), metadata });
+    assert_eq!(read, Results { rows: Vec::new(), metadata, flow: None });
     assert_eq!(read_frames(&dir.path().join("frames.parquet")).unwrap(), []);
 }

@@ -1,0 +1,190 @@
+//! The flow of images: how many a study found, and at which step the others were left out.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use crate::codes::coded_enum;
+use crate::frame_log::FrameReason;
+use crate::results::FrameRow;
+
+coded_enum! {
+    /// A step of the flow. Its images are a part of those of the step before.
+    FlowStep {
+        Found = "found": "every image of the study",
+        Readable = "readable": "a whole picture of the camera's size, with a time",
+        WithPose = "with_pose": "acceleration and range at that time, and an axis that meets the table",
+        Still = "still": "the head was still",
+        Selected = "selected": "the pitch is within the target window: used for fused sizes",
+        Marked = "marked": "selected, and marked by at least one rater",
+        Measured = "measured": "selected and marked, and at least one size could be measured",
+    }
+}
+
+impl FrameReason {
+    /// The last step of the flow that an image with this reason reaches, by its reason alone.
+    #[must_use]
+    pub fn reaches(self) -> FlowStep {
+        match self {
+            Self::EmptyImage
+            | Self::NotAnImage
+            | Self::DamagedImage
+            | Self::WrongSize
+            | Self::NoTime
+            | Self::TimesDisagree
+            | Self::AmbiguousTime => FlowStep::Found,
+            Self::NoAcceleration | Self::BadGravity | Self::NoRange | Self::NotBelowHorizon => FlowStep::Readable,
+            Self::Moving => FlowStep::WithPose,
+            Self::PitchOutsideTarget => FlowStep::Still,
+            Self::Selected => FlowStep::Selected,
+        }
+    }
+
+    /// The step of the flow that it ends: the first that such an image does not reach. None for selected images.
+    #[must_use]
+    pub fn ends(self) -> Option<FlowStep> {
+        let next = |step| FlowStep::ALL.iter().copied().find(|later| *later > step);
+        if self == Self::Selected { None } else { next(self.reaches()) }
+    }
+
+    /// What becomes of marks on such an image.
+    const fn marks(self) -> &'static str {
+        match self {
+            Self::Selected => "measured and fused",
+            Self::Moving | Self::PitchOutsideTarget => "measured, not fused",
+            _ => "not measured",
+        }
+    }
+}
+
+/// Images with something in common.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct ImageCounts {
+    /// All of them.
+    pub images: usize,
+    /// Those with marks of at least one rater.
+    pub marked: usize,
+    /// Those with marks and at least one measured size.
+    pub measured: usize,
+}
+
+impl ImageCounts {
+    fn add(&mut self, other: Self) {
+        self.images += other.images;
+        self.marked += other.marked;
+        self.measured += other.measured;
+    }
+}
+
+/// How many images reach each step, and why the others do not. The order of the images does not matter.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Flow {
+    by_reason: BTreeMap<FrameReason, ImageCounts>,
+}
+
+impl Flow {
+    /// Counts one image.
+    pub fn add(&mut self, frame: &FrameRow) {
+        let marked = frame.raters > 0;
+        self.by_reason.entry(frame.reason).or_default().add(ImageCounts {
+            images: 1,
+            marked: usize::from(marked),
+            measured: usize::from(marked && frame.sizes > 0),
+        });
+    }
+
+    /// Counts the images of `other`, too.
+    pub fn merge(&mut self, other: &Self) {
+        for (reason, counts) in &other.by_reason {
+            self.by_reason.entry(*reason).or_default().add(*counts);
+        }
+    }
+
+    /// The images with this reason.
+    #[must_use]
+    pub fn with_reason(&self, reason: FrameReason) -> ImageCounts {
+        self.by_reason.get(&reason).copied().unwrap_or_default()
+    }
+
+    /// Number of images that reach a step.
+    #[must_use]
+    pub fn images_at(&self, step: FlowStep) -> usize {
+        let selected = self.with_reason(FrameReason::Selected);
+        match step {
+            FlowStep::Marked => selected.marked,
+            FlowStep::Measured => selected.measured,
+            _ => self.sum(|reason| reason.reaches() >= step).images,
+        }
+    }
+
+    /// The images that were not selected: those with a pose are measured where they are marked, but not fused.
+    #[must_use]
+    pub fn not_selected(&self) -> ImageCounts {
+        self.sum(|reason| reason != FrameReason::Selected)
+    }
+
+    /// The share of the found images that was selected, in per cent; none where no image was found.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "a count of images is far below 2^53")]
+    pub fn selected_pct(&self) -> Option<f64> {
+        let found = self.images_at(FlowStep::Found);
+        (found > 0).then(|| 100.0 * self.images_at(FlowStep::Selected) as f64 / found as f64)
+    }
+
+    fn sum(&self, counts: impl Fn(FrameReason) -> bool) -> ImageCounts {
+        let mut sum = ImageCounts::default();
+        for (_, of_reason) in self.by_reason.iter().filter(|(reason, _)| counts(**reason)) {
+            sum.add(*of_reason);
+        }
+        sum
+    }
+}
+
+/// The flow of a study, session by session.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct StudyFlow {
+    sessions: BTreeMap<String, Flow>,
+}
+
+impl StudyFlow {
+    /// Counts one image of its session.
+    pub fn add(&mut self, frame: &FrameRow) {
+        if let Some(flow) = self.sessions.get_mut(&frame.session) {
+            return flow.add(frame);
+        }
+        self.sessions.entry(frame.session.clone()).or_default().add(frame);
+    }
+
+    /// The sessions with images, by name.
+    pub fn sessions(&self) -> impl Iterator<Item = (&str, &Flow)> {
+        self.sessions.iter().map(|(name, flow)| (name.as_str(), flow))
+    }
+
+    /// The study as a whole.
+    #[must_use]
+    pub fn total(&self) -> Flow {
+        let mut total = Flow::default();
+        for flow in self.sessions.values() {
+            total.merge(flow);
+        }
+        total
+    }
+}
+
+/// Markdown of the reasons: where each ends the flow, and what becomes of marks. Then that of the steps.
+pub(crate) fn flow_markdown() -> String {
+    let mut text =
+        "| reason | meaning | first step not reached | marks on such an image |\n|---|---|---|---|\n".to_owned();
+    for reason in FrameReason::ALL {
+        let ends = reason.ends().map_or_else(String::new, |step| format!("`{step}`"));
+        let _ = writeln!(text, "| `{reason}` | {} | {ends} | {} |", reason.meaning(), reason.marks());
+    }
+    text.push_str(
+        "\n## The flow of images\n\n\
+         How many images reach each step, each a part of the one before (docs/tables.md, table `flow`):\n\n\
+         | step | meaning |\n|---|---|\n",
+    );
+    for step in FlowStep::ALL {
+        let _ = writeln!(text, "| `{step}` | {} |", step.meaning());
+    }
+    text
+}

@@ -1,0 +1,152 @@
+//! The flow of images: how many of a session's images reach each step.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use model::{Flow, FlowStep, FrameReason, SessionStatus};
+
+use super::footnotes::{NotedRow, mark};
+use crate::parquet::Results;
+use crate::table::{Cell, Column, ROW, RowKind, Table};
+
+/// More sessions than this are too many for a terminal, ...
+const SESSIONS_IN_SHORT: usize = 30;
+/// ... which then has this many.
+const SESSIONS_SHOWN: usize = 10;
+
+const STATISTIC: &str = "Numbers of images, each a part of the one to its left. Pose: acceleration and range at the \
+                         image's time, and an axis that meets the table. Still, and with its pitch in range, an image is \
+                         selected: its sizes are fused. With marks, with sizes: of the selected images. Other marks: marked \
+                         images that are not selected; where they have a pose they are measured, but not fused.";
+
+/// One session of the study. Of a lost one there is no flow, but a note.
+struct Session<'a> {
+    name: &'a str,
+    flow: Option<Flow>,
+    note: Option<String>,
+}
+
+/// The flow of every session, and of the study; none where the ledger was not read ([`Results::read_flow`]).
+#[must_use]
+pub fn flow(results: &Results) -> Option<Table> {
+    let total = results.flow.as_ref()?.total();
+    Some(table(results, &sessions(results), &total))
+}
+
+/// The same for a terminal: of many sessions, those of which the smallest share of images was selected, that first.
+#[must_use]
+pub fn flow_in_short(results: &Results) -> Option<Table> {
+    let mut sessions = sessions(results);
+    let total = results.flow.as_ref()?.total();
+    if sessions.len() <= SESSIONS_IN_SHORT {
+        return Some(table(results, &sessions, &total));
+    }
+    sessions.sort_by(|a, b| least_kept_first(a, b));
+    let mut table = table(results, &sessions[..SESSIONS_SHOWN], &total);
+    table.remarks.push(format!(
+        "{SESSIONS_SHOWN} of {} sessions: those with the smallest share of their images selected. flow.csv, which \
+         --report and 'aim-batch report -o' write, has all.",
+        sessions.len(),
+    ));
+    Some(table)
+}
+
+/// Lost sessions and those without images before all others.
+fn least_kept_first(a: &Session<'_>, b: &Session<'_>) -> Ordering {
+    let [a_pct, b_pct] = [a, b].map(|session| session.flow.as_ref().and_then(Flow::selected_pct).unwrap_or(-1.0));
+    a_pct.total_cmp(&b_pct).then_with(|| a.name.cmp(b.name))
+}
+
+/// The sessions of the run by name: those with images, and those of which there are none.
+fn sessions(results: &Results) -> Vec<Session<'_>> {
+    let statuses = &results.metadata.sessions;
+    let mut sessions: BTreeMap<&str, Session<'_>> =
+        statuses.iter().map(|status| (status.session.as_str(), without_images(status))).collect();
+    for (name, flow) in results.flow.iter().flat_map(model::StudyFlow::sessions) {
+        sessions.insert(name, Session { name, flow: Some(flow.clone()), note: None });
+    }
+    sessions.into_values().collect()
+}
+
+fn without_images(status: &SessionStatus) -> Session<'_> {
+    let name = &status.session;
+    if !status.failed {
+        return Session { name, flow: Some(Flow::default()), note: None };
+    }
+    let code = status.problems.last().map_or("failed", |problem| &problem.code);
+    let note = format!("nothing of this session could be used ({code}); its images are not counted");
+    Session { name, flow: None, note: Some(note) }
+}
+
+fn table(results: &Results, sessions: &[Session<'_>], total: &Flow) -> Table {
+    let rows = sessions.iter().map(|session| NotedRow {
+        kind: RowKind::Row,
+        label: None,
+        cells: cells(RowKind::Row, session.name, session.flow.as_ref()),
+        notes: session.note.iter().cloned().collect(),
+    });
+    let whole = NotedRow {
+        kind: RowKind::Overall,
+        label: Some("whole study".to_owned()),
+        cells: cells(RowKind::Overall, "", Some(total)),
+        notes: Vec::new(),
+    };
+    let (rows, footnotes) = mark(rows.chain([whole]).collect());
+    Table {
+        stem: "flow".to_owned(),
+        label: None,
+        title: "Flow of images".to_owned(),
+        statistic: STATISTIC.to_owned(),
+        columns: columns(total),
+        rows,
+        footnotes,
+        remarks: Vec::new(),
+        statement: results.metadata.statement.clone(),
+    }
+}
+
+/// Narrow headings: eight columns of numbers must stand beside the names of sessions in a terminal.
+const fn heading(step: FlowStep) -> &'static str {
+    match step {
+        FlowStep::Found => "found",
+        FlowStep::Readable => "can be read",
+        FlowStep::WithPose => "with pose",
+        FlowStep::Still => "still",
+        FlowStep::Selected => "pitch in range",
+        FlowStep::Marked => "with marks",
+        FlowStep::Measured => "with sizes",
+    }
+}
+
+/// CSV also has the share selected and the number of images left out by each reason. Where every image can be read,
+/// people need not see that column.
+fn columns(total: &Flow) -> Vec<Column> {
+    let all_readable = total.images_at(FlowStep::Readable) == total.images_at(FlowStep::Found);
+    let mut columns = vec![Column::key(ROW), Column::key("session").headed("session")];
+    columns.extend(FlowStep::ALL.iter().map(|step| {
+        let is_shown = *step != FlowStep::Readable || !all_readable;
+        Column::result(step.code(), "").headed_if(is_shown, heading(*step))
+    }));
+    columns.push(Column::result("other_marked", "").headed("other marks"));
+    columns.push(Column::result("other_measured", ""));
+    columns.push(Column::result("selected_pct", "%"));
+    columns.extend(left_out_by().map(|reason| Column::result(reason.code(), "")));
+    columns.push(Column::note());
+    columns
+}
+
+fn left_out_by() -> impl Iterator<Item = FrameReason> {
+    FrameReason::ALL.iter().copied().filter(|reason| reason.ends().is_some())
+}
+
+/// The cells but the last, which has the notes.
+fn cells(kind: RowKind, session: &str, flow: Option<&Flow>) -> Vec<Cell> {
+    let count = |count: &dyn Fn(&Flow) -> usize| flow.map_or(Cell::Empty, |flow| Cell::Count(count(flow)));
+    let mut cells = vec![Cell::text(kind.code()), if session.is_empty() { Cell::Empty } else { Cell::text(session) }];
+    cells.extend(FlowStep::ALL.iter().map(|step| count(&|flow| flow.images_at(*step))));
+    cells.push(count(&|flow| flow.not_selected().marked));
+    cells.push(count(&|flow| flow.not_selected().measured));
+    cells.push(Cell::number(flow.and_then(Flow::selected_pct)));
+    cells.extend(left_out_by().map(|reason| count(&|flow| flow.with_reason(reason).images)));
+    cells
+}
