@@ -5,7 +5,8 @@ use std::io::Read;
 use jiff::tz::TimeZone;
 
 use crate::parse::{
-    Converter, CsvLayout, CsvSamples, Fault, PacketError, PacketParser, PacketSamples, RawBlock, names_zone,
+    Converter, CsvLayout, CsvSamples, CwaLayout, CwaSamples, Fault, PacketError, PacketParser, PacketSamples, RawBlock,
+    names_zone,
 };
 use crate::profile::{AccelerationStream, CsvFormat, Epoch, PacketLayout, RangeStream, RowTime, Step, TimeUnit};
 use crate::timeline::Clock;
@@ -31,6 +32,7 @@ pub(crate) struct Layout {
 enum FileLayout {
     Packets(PacketParser),
     Csv(CsvLayout),
+    Cwa(CwaLayout),
 }
 
 /// What all streams of a profile say.
@@ -52,6 +54,10 @@ impl Layout {
         if let Some(csv) = &stream.csv {
             let values = vec![csv.x.clone(), csv.y.clone(), csv.z.clone()];
             return Ok(Self::csv(&csv.format, &csv.time, values, common));
+        }
+        if let Some(cwa) = &stream.cwa {
+            let layout = CwaLayout { converter: common.converter.clone(), extra: common.extra.to_vec() };
+            return Ok(Self::new(FileLayout::Cwa(layout), cwa.epoch, None, Step::Stamps, &common));
         }
         Self::packets(stream.packets.as_ref(), common)
     }
@@ -113,7 +119,7 @@ impl Layout {
     pub fn rows_over_s(&self) -> Option<f64> {
         match &self.files {
             FileLayout::Csv(csv) => csv.time.rows_over_s,
-            FileLayout::Packets(_) => None,
+            FileLayout::Packets(_) | FileLayout::Cwa(_) => None,
         }
     }
 }
@@ -126,6 +132,7 @@ fn wrap_ns(bits: Option<u32>, unit: TimeUnit) -> Option<i128> {
 pub(crate) enum Decoder<R: Read> {
     Packets(Box<PacketSamples<R>>),
     Csv(Box<CsvSamples<R>>),
+    Cwa(Box<CwaSamples<R>>),
 }
 
 impl<R: Read> Decoder<R> {
@@ -136,6 +143,7 @@ impl<R: Read> Decoder<R> {
                 Self::Packets(Box::new(PacketSamples::new(reader, parser.clone(), is_absolute)))
             }
             FileLayout::Csv(csv) => Self::Csv(Box::new(CsvSamples::new(reader, csv.clone()))),
+            FileLayout::Cwa(cwa) => Self::Cwa(Box::new(CwaSamples::new(reader, cwa.clone()))),
         }
     }
 
@@ -144,6 +152,7 @@ impl<R: Read> Decoder<R> {
         match self {
             Self::Packets(packets) => packets.next_block(),
             Self::Csv(csv) => csv.next_block(),
+            Self::Cwa(cwa) => cwa.next_block(),
         }
     }
 
@@ -151,6 +160,7 @@ impl<R: Read> Decoder<R> {
         match self {
             Self::Packets(packets) => packets.finish(),
             Self::Csv(csv) => csv.finish(),
+            Self::Cwa(cwa) => cwa.finish(),
         }
     }
 }

@@ -37,6 +37,23 @@ pub enum Fault {
         /// Where the first one begins.
         first_offset: u64,
     },
+    /// Packets whose number is not the one after the last.
+    #[error(
+        "{jumps} jumps in the packets' numbers, the first at byte {first_offset}: expected {expected}, got {got}; packets are missing"
+    )]
+    SequenceJumps {
+        /// How many.
+        jumps: u64,
+        /// Where the first one is.
+        first_offset: u64,
+        /// The number that follows.
+        expected: u32,
+        /// The number that is there.
+        got: u32,
+    },
+    /// A CWA file without its header.
+    #[error("the file does not begin with a header; its blocks are used")]
+    NoHeader,
     /// A CWA file's damage.
     #[error("{blocks} blocks cannot be used ({bytes} bytes), the first at byte {first_offset}: {first}")]
     BadBlocks {
@@ -134,6 +151,8 @@ impl Fault {
             Self::TruncatedPacket { .. } => "truncated_packet",
             Self::Zeros { .. } => "zero_blocks",
             Self::LostAlignment { .. } => "lost_alignment",
+            Self::SequenceJumps { .. } => "sequence_jumps",
+            Self::NoHeader => "missing_header",
             Self::BadBlocks { .. } => "bad_blocks",
             Self::BadStamp { .. } => "bad_stamp",
             Self::MissingColumn { .. } => "missing_column",
@@ -154,7 +173,7 @@ impl Fault {
                  profile's header, channels or samples do not fit"
             }
             Self::Zeros { .. } => "copy the file from the card again; a card pulled out while writing leaves zeros",
-            Self::LostAlignment { .. } | Self::BadBlocks { .. } => {
+            Self::LostAlignment { .. } | Self::BadBlocks { .. } | Self::SequenceJumps { .. } | Self::NoHeader => {
                 "copy the file from the card again; if it stays so, the card has bad sectors, or the profile does not fit"
             }
             Self::BadStamp { .. } => "check header, endian and the stamp's type in the device profile",

@@ -4,6 +4,7 @@
 mod convert;
 mod csv_file;
 pub mod cwa;
+mod cwa_file;
 mod decimal;
 mod fault;
 pub mod image_header;
@@ -16,6 +17,7 @@ mod scalar;
 pub use convert::Converter;
 pub(crate) use csv_file::names_zone;
 pub use csv_file::{CsvLayout, CsvSamples};
+pub use cwa_file::{CwaLayout, CwaSamples};
 pub use fault::Fault;
 pub use packet_file::PacketSamples;
 pub use packets::{PacketError, PacketParser};

@@ -25,7 +25,7 @@ pub enum Stamps {
         /// The stamp.
         ns: i64,
         /// The sample that it is the time of, from 0; it may lie outside of the packet.
-        at_sample: f64,
+        at_sample: i32,
         /// Samples in the packet, missing ones included.
         samples: u32,
         /// Which of them are there; none for all.

@@ -45,6 +45,8 @@ pub enum Epoch {
     Unix,
     /// 1970-01-01 00:00 on the wall clock of the study's time zone: local time written as if it were UTC.
     Local,
+    /// As `local`, but by the offset that held when the recording began: the device knows no summer time.
+    LocalAtStart,
     /// When the device was started: `[clock] anchor` says when that was.
     Boot,
 }

@@ -60,6 +60,7 @@ impl Clock {
             Epoch::Unix => in_range(unwrapped)?,
             Epoch::Boot => in_range(i128::from(self.anchor.ok_or(ClockError::NoAnchor)?.0) + unwrapped)?,
             Epoch::Local => self.from_local(in_range(unwrapped)?)?,
+            Epoch::LocalAtStart => self.from_local_at_start(in_range(unwrapped)?)?,
         };
         self.last_unwrapped = Some(unwrapped);
         self.last = Some(utc);
@@ -75,6 +76,17 @@ impl Clock {
                 stamp + turns * wrap
             }
             _ => stamp,
+        }
+    }
+
+    fn from_local_at_start(&mut self, local: UtcNs) -> Result<UtcNs, ClockError> {
+        match self.known {
+            Some((_, offset_ns)) => in_range(i128::from(local.0) - i128::from(offset_ns)),
+            None => {
+                let utc = self.from_local(local)?;
+                self.known = Some((0, local.0 - utc.0));
+                Ok(utc)
+            }
         }
     }
 
@@ -169,6 +181,14 @@ mod tests {
         assert_eq!(clock.utc(local("2026-11-01T01:59:59")).unwrap(), utc("2026-11-01T06:59:59Z"));
         assert_eq!(clock.utc(local("2026-11-01T01:00:00")).unwrap(), utc("2026-11-01T07:00:00Z"));
         assert_eq!(clock.utc(local("2026-11-01T02:00:00")).unwrap(), utc("2026-11-01T08:00:00Z"));
+    }
+
+    #[test]
+    fn a_device_that_knows_no_summer_time_keeps_its_offset() {
+        let mut clock = Clock::new(Epoch::LocalAtStart, None, chicago());
+        assert_eq!(clock.utc(local("2026-10-31T23:00:00")).unwrap(), utc("2026-11-01T04:00:00Z"));
+        assert_eq!(clock.utc(local("2026-11-01T01:30:00")).unwrap(), utc("2026-11-01T06:30:00Z"));
+        assert_eq!(clock.utc(local("2026-11-01T12:00:00")).unwrap(), utc("2026-11-01T17:00:00Z"));
     }
 
     #[test]

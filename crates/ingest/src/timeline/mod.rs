@@ -8,10 +8,12 @@ mod block;
 mod clock;
 mod facts;
 mod line;
+mod stamped;
 mod stepper;
 
 pub use block::{Block, Times};
 pub use clock::{Clock, ClockError};
 pub use facts::{ClockJump, LISTED, Span, StreamFacts, Timeline};
 pub use line::Line;
+pub use stamped::{BlockStamp, BlockTimes, SampleTimes};
 pub use stepper::Stepper;

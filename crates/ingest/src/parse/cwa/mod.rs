@@ -1,8 +1,8 @@
 //! CWA files of the Axivity loggers AX3 and AX6: a header of 1024 bytes, then data blocks of 512 bytes.
 //!
 //! - [`Block::parse`] reads one block; [`CwaBlocks`] streams those of a file and steps over damage.
-//! - [`SampleTimes`] places every sample from the blocks' stamps, for a logger's true rate is off the nominal one by
-//!   a percent or so; [`TimedBlocks`] joins the two.
+//! - A logger's true rate is off the nominal one by a percent or so: [`timeline`](crate::timeline) places every sample from
+//!   the blocks' stamps.
 //!
 //! # Conventions
 //! - Numbers are little-endian. Acceleration is in g and angular rate in degrees per second, on the sensor's own axes.
@@ -14,16 +14,12 @@
 //!
 //! # Example
 //! ```no_run
-//! use aim_batch_ingest::parse::cwa::{CwaBlocks, TimedBlocks};
-//! use jiff::tz::TimeZone;
+//! use aim_batch_ingest::parse::cwa::CwaBlocks;
 //!
 //! let file = std::fs::File::open("recording.cwa")?;
-//! let utc_ns = |stamp| TimeZone::UTC.to_timestamp(stamp).map_or(0, |time| time.as_nanosecond() as i64);
-//! let mut blocks = TimedBlocks::new(CwaBlocks::new(file), utc_ns);
-//! while let Some((block, times)) = blocks.next_block() {
-//!     for (i, sample) in block.samples.iter().enumerate() {
-//!         println!("{} {sample:?}", times.time_ns(i));
-//!     }
+//! let mut blocks = CwaBlocks::new(file);
+//! while let Some(block) = blocks.next_block() {
+//!     println!("sample {} at {}: {:?}", block.stamp_index, block.stamp, block.samples);
 //! }
 //! let (facts, _file) = blocks.finish();
 //! println!("{} blocks, {} bytes lost", facts.blocks, facts.bytes_lost);
@@ -36,13 +32,9 @@ mod facts;
 mod fields;
 mod header;
 mod samples;
-mod timed;
-mod times;
 mod window;
 
 pub use block::{BLOCK_BYTES, Block, BlockError};
 pub use blocks::CwaBlocks;
 pub use facts::{BadBlocks, CwaFacts, ReadFailure, SequenceJump, TruncatedBlock};
 pub use header::{HEADER_BYTES, Hardware, Header};
-pub use timed::TimedBlocks;
-pub use times::{BlockStamp, BlockTimes, SampleTimes};

@@ -2,7 +2,8 @@
 
 use std::io::Read;
 
-use aim_batch_ingest::parse::cwa::{Block, BlockStamp, CwaBlocks, CwaFacts, SampleTimes, SequenceJump, TruncatedBlock};
+use aim_batch_ingest::parse::cwa::{Block, CwaBlocks, CwaFacts, SequenceJump, TruncatedBlock};
+use aim_batch_ingest::timeline::{BlockStamp, SampleTimes};
 use proptest::prelude::*;
 
 use super::writer::{BlockSpec, Samples, header};
@@ -208,7 +209,7 @@ proptest! {
     fn arbitrary_stamps(stamps in prop::collection::vec((0_u32..6, any::<i64>(), -400_i32..400, 0..121_usize), 0..20)) {
         let mut times = SampleTimes::new();
         for (sequence, time_ns, index, samples) in stamps {
-            let stamp = BlockStamp { session_id: 0, sequence, time_ns, index, samples, nominal_rate_hz: 100.0 };
+            let stamp = BlockStamp { sequence: Some(sequence), time_ns, index, samples, nominal_rate_hz: 100.0 };
             for times in [times.push(stamp), times.clone().finish()].into_iter().flatten() {
                 prop_assert!(times.step_ns >= 0.0 && times.time_ns(samples) >= times.first_sample_time_ns);
             }

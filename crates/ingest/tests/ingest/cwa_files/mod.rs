@@ -6,7 +6,8 @@ mod round_trip;
 mod times;
 mod writer;
 
-use aim_batch_ingest::parse::cwa::{Block, BlockTimes, CwaBlocks, CwaFacts, TimedBlocks};
+use aim_batch_ingest::parse::cwa::{Block, CwaBlocks, CwaFacts};
+use aim_batch_ingest::timeline::{BlockStamp, BlockTimes, SampleTimes};
 use jiff::tz::TimeZone;
 
 /// The blocks of a file, and what the reader says of it.
@@ -18,9 +19,18 @@ fn read(file: &[u8]) -> (Vec<Block>, CwaFacts) {
 
 /// The blocks of a file with their times, the logger's clock taken for UTC.
 fn read_timed(file: &[u8]) -> Vec<(Block, BlockTimes)> {
-    let utc_ns = |stamp| i64::try_from(TimeZone::UTC.to_timestamp(stamp).unwrap().as_nanosecond()).unwrap();
-    let mut reader = TimedBlocks::new(CwaBlocks::new(file), utc_ns);
-    std::iter::from_fn(|| reader.next_block()).collect()
+    let (blocks, _) = read(file);
+    let mut places = SampleTimes::new();
+    let stamp = |block: &Block| BlockStamp {
+        sequence: Some(block.sequence),
+        time_ns: i64::try_from(TimeZone::UTC.to_timestamp(block.stamp).unwrap().as_nanosecond()).unwrap(),
+        index: block.stamp_index,
+        samples: block.samples.len(),
+        nominal_rate_hz: block.nominal_rate_hz,
+    };
+    let mut times: Vec<BlockTimes> = blocks.iter().filter_map(|block| places.push(stamp(block))).collect();
+    times.extend(places.finish());
+    blocks.into_iter().zip(times).collect()
 }
 
 /// Samples per second between the first sample of the first block and that of the last.

@@ -1,10 +1,8 @@
-//! When each sample was taken.
+//! When each sample was taken, where packets without a gap between them touch.
 //!
-//! A block's stamp is the time of one sample. Between two stamps the samples are evenly spaced, so times are
+//! A packet's stamp is the time of one sample. Between two stamps the samples are evenly spaced, so times are
 //! interpolated linearly from stamp to stamp, over the blocks' borders: the last sample of a block is one step before
 //! the first of the next one. Each block gets the straight line between its borders.
-
-use super::Block;
 
 /// How far the rate between two stamps may be off the nominal one before they do not belong together. Recordings of an
 /// AX3 and an AX6 are within 1.2 %; a block that is missing makes a difference of half.
@@ -13,10 +11,8 @@ const RATE_TOLERANCE: f64 = 0.05;
 /// The part of a block that times depend on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlockStamp {
-    /// Number of the recording.
-    pub session_id: u32,
-    /// Number of the block.
-    pub sequence: u32,
+    /// Number of the block, where blocks have one.
+    pub sequence: Option<u32>,
     /// Time of the sample [`index`](Self::index), in ns on any time line.
     pub time_ns: i64,
     /// The sample that the stamp is of, counted from the block's first; it may lie outside the block.
@@ -28,26 +24,14 @@ pub struct BlockStamp {
 }
 
 impl BlockStamp {
-    /// That of a block; `time_ns` is its stamp on the caller's time line.
-    #[must_use]
-    pub fn new(block: &Block, time_ns: i64) -> Self {
-        Self {
-            session_id: block.session_id,
-            sequence: block.sequence,
-            time_ns,
-            index: block.stamp_index,
-            samples: block.samples.len(),
-            nominal_rate_hz: block.nominal_rate_hz,
-        }
-    }
-
     fn nominal_step_ns(&self) -> f64 {
         1e9 / self.nominal_rate_hz
     }
 
     /// ns from sample to sample between this stamp and that of the next block; none when they do not belong together.
     fn step_ns_to(&self, next: &Self) -> Option<f64> {
-        let follows = next.session_id == self.session_id && next.sequence == self.sequence.wrapping_add(1);
+        let numbers = self.sequence.zip(next.sequence);
+        let follows = numbers.is_none_or(|(this, next)| this.wrapping_add(1) == next);
         let same_rate = (next.nominal_rate_hz - self.nominal_rate_hz).abs() < f64::EPSILON;
         let samples = self.samples as f64 - f64::from(self.index) + f64::from(next.index);
         if !follows || !same_rate || samples < 1.0 {
