@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::frame_log::FrameReason;
+use crate::frame_log::{FrameFlag, FrameReason};
 
 use super::{Column, ColumnType, FRAME_COLUMNS, RESULT_COLUMNS, RESULTS_SCHEMA_VERSION};
 
@@ -43,6 +43,14 @@ pub fn ledger_markdown() -> String {
         .to_owned();
     for reason in FrameReason::ALL {
         let _ = writeln!(text, "| `{}` | {} |", reason.code(), reason.meaning());
+    }
+    text.push_str(
+        "\n## Flags\n\nWhat to know about an image's signals (docs/signals.md). A flag drops nothing: it stands in the column \
+         `flags` of the image and of the sizes measured on it. Made from `FrameFlag` in the same file.\n\n\
+         | flag | meaning |\n|---|---|\n",
+    );
+    for flag in FrameFlag::ALL {
+        let _ = writeln!(text, "| `{}` | {} |", flag.code(), flag.meaning());
     }
     text
 }
