@@ -51,6 +51,7 @@ mod progress;
 mod read;
 mod sample;
 mod summary;
+mod thumbnail;
 pub mod timeline;
 
 pub use config::ConfigError;
@@ -61,3 +62,4 @@ pub use progress::{IngestProgress, NoProgress};
 pub use read::{ReadError, Samples, SessionMetadata, SessionReader};
 pub use sample::Sample;
 pub use summary::{Counts, DroppedImage, ImageEntry, IngestSummary};
+pub use thumbnail::{Thumbnail, ThumbnailError, thumbnail};
