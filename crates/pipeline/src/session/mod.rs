@@ -6,6 +6,8 @@ mod marks;
 mod problems;
 mod read;
 mod rows;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

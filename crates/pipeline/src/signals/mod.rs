@@ -7,8 +7,11 @@ mod frame;
 mod gravity;
 pub mod lag;
 mod range;
+#[cfg(test)]
+mod tests;
 mod window;
 
+use ingest::timeline::Timeline;
 use ingest::{ReadError, Sample, SessionReader};
 use model::{FrameFlag, FrameReason, Method, Pose, UtcNs};
 use nalgebra::Vector3;
@@ -85,34 +88,42 @@ pub fn at_images(
     image_times: &[UtcNs],
     settings: &SignalSettings,
 ) -> Result<SessionSignals, ReadError> {
+    let timeline = reader.metadata().timeline.clone();
+    evaluate(|each| reader.for_each_sample(each), &timeline, image_times, settings)
+}
+
+/// [`at_images`] over any stream; `stream` calls its argument with every sample, each time that it is called.
+fn evaluate<E>(
+    mut stream: impl FnMut(&mut dyn FnMut(Sample)) -> Result<(), E>,
+    timeline: &Timeline,
+    image_times: &[UtcNs],
+    settings: &SignalSettings,
+) -> Result<SessionSignals, E> {
     let spec = &settings.signals;
-    let (mut still, applies) = (StillWindows::default(), spec.gravity_calibration == GravityCalibrate::Apply);
+    let mut still = StillWindows::default();
+    let applies = spec.gravity_calibration == GravityCalibrate::Apply;
     if applies {
-        reader.for_each_sample(|sample| {
-            if let Sample::Acceleration { time, g } = sample {
-                still.push(time, &Vector3::from(g));
-            }
-        })?;
+        stream(&mut |sample| still.push_sample(&sample))?;
     }
     let applied = applies.then(|| still.calibration()).and_then(|calibration| calibration.accepted());
+    let watches = spec.gravity_calibration == GravityCalibrate::Report;
     let half_gravity_s = gravity::half_window_s(spec.gravity_cutoff_hz);
     let half_range_s = 0.5 * spec.range_window_s;
-    let mut accelerations = Windows::new(image_times, half_gravity_s, |time, samples: &[(UtcNs, Vector3<f64>)]| {
-        gravity::at(time, samples, spec.gravity_cutoff_hz)
-    });
+    let gravity_at = |time, samples: &[(UtcNs, Vector3<f64>)]| gravity::at(time, samples, spec.gravity_cutoff_hz);
+    let mut accelerations = Windows::new(image_times, half_gravity_s, gravity_at);
     let mut ranges = Windows::new(image_times, half_range_s, |_, samples: &[(UtcNs, f64)]| range::of(samples, spec));
-    let watches = spec.gravity_calibration == GravityCalibrate::Report;
-    reader.for_each_sample(|sample| match sample {
-        Sample::Acceleration { time, g } => {
-            let force_g = Vector3::from(g);
-            if watches {
-                still.push(time, &force_g);
-            }
-            accelerations.push(time, applied.map_or(force_g, |calibration| calibration.of(&force_g)));
+    stream(&mut |sample| {
+        if watches {
+            still.push_sample(&sample);
         }
-        Sample::Range { time, mm } => ranges.push(time, mm),
+        match sample {
+            Sample::Acceleration { time, g } => {
+                let force_g = Vector3::from(g);
+                accelerations.push(time, applied.map_or(force_g, |calibration| calibration.of(&force_g)));
+            }
+            Sample::Range { time, mm } => ranges.push(time, mm),
+        }
     })?;
-    let timeline = &reader.metadata().timeline;
     let is_ambiguous = |time: &UtcNs| timeline.is_ambiguous(*time, half_gravity_s.max(half_range_s));
     let found = accelerations.finish().into_iter().zip(ranges.finish()).zip(image_times);
     let frames = found.map(|(found, time)| frame::signals((!is_ambiguous(time)).then_some(found), settings)).collect();

@@ -1,5 +1,6 @@
 //! Still windows, found in a stream of samples.
 
+use ingest::Sample;
 use model::UtcNs;
 use nalgebra::Vector3;
 
@@ -28,6 +29,13 @@ pub(in crate::signals) struct StillWindows {
 }
 
 impl StillWindows {
+    /// The next sample of the session; those of other sensors are passed over.
+    pub(in crate::signals) fn push_sample(&mut self, sample: &Sample) {
+        if let Sample::Acceleration { time, g } = sample {
+            self.push(*time, &Vector3::from(*g));
+        }
+    }
+
     /// The next sample, in g.
     pub(in crate::signals) fn push(&mut self, time: UtcNs, value_g: &Vector3<f64>) {
         if let Some((start, last)) = self.open {
