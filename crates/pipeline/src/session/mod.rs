@@ -87,18 +87,17 @@ pub fn run_session(
     for problem in &mut output.status.problems {
         problem.fact = without_host(&problem.fact, study, &options.mcap_dir);
     }
-    for problem in &output.status.problems {
-        tracing::warn!(
-            session = dir.name,
-            stage = %problem.stage,
-            code = problem.code,
-            place = problem.place,
-            remedy = problem.remedy,
-            "{}",
-            problem.fact
-        );
-    }
+    output.status.problems.iter().for_each(|problem| log(&dir.name, problem));
     output
+}
+
+/// Losses as warnings; notes are told in the report, and logged for those who ask for more.
+fn log(session: &str, problem: &Problem) {
+    let Problem { severity, stage, code, place, fact, remedy } = problem;
+    match severity {
+        Severity::Loss => tracing::warn!(session, %stage, code, place, remedy, "{fact}"),
+        Severity::Note => tracing::info!(session, %stage, code, place, remedy, "{fact}"),
+    }
 }
 
 fn fill(

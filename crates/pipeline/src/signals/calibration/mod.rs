@@ -155,7 +155,7 @@ impl std::fmt::Display for GravityCalibration {
         if *windows > 0 {
             let axes = [("x", l.x, m.x), ("y", l.y, m.y), ("z", l.z, m.z)];
             for (axis, least, most) in axes {
-                write!(f, ", {axis} {least:.2} to {most:.2} g")?;
+                write!(f, ", {axis} {:.2} to {:.2} g", without_sign_of_zero(least), without_sign_of_zero(most))?;
             }
         }
         if let Some(before) = self.error_before_mg {
@@ -168,6 +168,11 @@ impl std::fmt::Display for GravityCalibration {
         }
         Ok(())
     }
+}
+
+/// To the two decimals that are shown, without -0.00.
+fn without_sign_of_zero(g: f64) -> f64 {
+    (100.0 * g).round() / 100.0 + 0.0
 }
 
 impl CalibrationVerdict {
