@@ -37,5 +37,5 @@ pub fn pitch_at_images(mcap: &std::path::Path, seconds: i64) -> usize {
         mount_pitch_rad: 21_f64.to_radians(),
     };
     let frames = signals::at_images(&mut reader, &times, &settings).unwrap();
-    frames.iter().filter(|frame| frame.pitch_roll_rad.is_some()).count()
+    frames.frames.iter().filter(|frame| frame.pitch_roll_rad.is_some()).count()
 }
