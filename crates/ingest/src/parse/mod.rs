@@ -5,10 +5,14 @@ mod convert;
 mod csv_file;
 mod decimal;
 mod fault;
+pub mod image_extent;
 pub mod image_header;
 pub mod image_time;
+mod jpeg_extent;
+mod jpeg_tables;
 mod packet_file;
 mod packets;
+mod png_extent;
 
 pub use convert::Converter;
 pub use csv_file::CsvSamples;

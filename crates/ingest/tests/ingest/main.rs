@@ -6,6 +6,7 @@ mod broken_cards;
 mod configuration;
 mod csv_files;
 mod damaged_mcap;
+mod image_extent;
 mod image_times;
 mod packets;
 mod round_trip;
