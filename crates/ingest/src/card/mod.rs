@@ -12,6 +12,6 @@ pub use patterns::{PatternError, Patterns};
 pub use walk::{Card, CardFile};
 
 pub(crate) use hashing::{Inputs, open_hashing};
-pub(crate) use image_file::{LARGEST_IMAGE_BYTES, TakenImage, read_image};
-pub(crate) use place::Place;
+pub(crate) use image_file::{LARGEST_IMAGE_BYTES, Remarks, TakenImage, read_image, too_large};
+pub(crate) use place::{Place, amount, size};
 pub(crate) use stream::Stream;

@@ -1,6 +1,9 @@
 //! From a card to an MCAP file.
 
+mod dropped;
 mod error;
+mod image_tally;
+mod recordings;
 mod run;
 
 pub use error::IngestError;

@@ -5,6 +5,7 @@ mod arbitrary_bytes;
 mod broken_cards;
 mod configuration;
 mod csv_files;
+mod damaged_images;
 mod damaged_mcap;
 mod image_extent;
 mod image_times;
