@@ -3,9 +3,11 @@
 mod decoder;
 mod hashing;
 mod image_file;
+mod names;
 mod patterns;
 mod place;
 mod stream;
+mod unread;
 mod walk;
 
 pub use patterns::{PatternError, Patterns};
@@ -15,3 +17,4 @@ pub(crate) use hashing::{Inputs, open_hashing};
 pub(crate) use image_file::{LARGEST_IMAGE_BYTES, Remarks, TakenImage, read_image, too_large};
 pub(crate) use place::{Place, amount, size};
 pub(crate) use stream::Stream;
+pub(crate) use unread::Declared;

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use jiff::tz::TimeZone;
 use model::CameraSpec;
 
-use crate::card::{Card, Place};
+use crate::card::{Card, Declared, Place};
 use crate::key;
 use crate::profile::Profile;
 use crate::progress::IngestProgress;
@@ -98,6 +98,9 @@ pub fn ingest_session(
     if run.inputs.sha256.is_empty() {
         return Err(nothing_fits(source, &card));
     }
+    let images = source.profile.images.as_ref().map_or(&[][..], |images| &images.files);
+    let declared = Declared { all: &key::all_patterns(&source.profile), images };
+    run.problems.extend(card.unread(&declared, &place).map_err(IngestError::Pattern)?);
     run.finish(&entries, &camera)
 }
 

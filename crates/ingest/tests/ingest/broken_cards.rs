@@ -82,6 +82,7 @@ fn missing_files_are_said_and_the_rest_is_used() {
     let expected = [
         ("no_files", "cards/P01"),
         ("no_samples", "cards/P01/SENSORS/RNG.BIN"),
+        ("unread_files", "cards/P01/SENSORS/acc.bin"),
     ];
     assert_eq!(study.problems(), expected.map(|(code, place)| (code.to_owned(), place.to_owned())));
 }

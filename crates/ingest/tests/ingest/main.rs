@@ -9,6 +9,7 @@ mod damaged_images;
 mod damaged_mcap;
 mod image_extent;
 mod image_times;
+mod odd_cards;
 mod packets;
 mod round_trip;
 mod support;
