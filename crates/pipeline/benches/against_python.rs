@@ -133,6 +133,6 @@ impl Python {
 
 impl Drop for Python {
     fn drop(&mut self) {
-        self.child.kill().and_then(|()| self.child.wait()).map_or((), |_| ());
+        drop(self.child.kill().and_then(|()| self.child.wait()));
     }
 }

@@ -3,6 +3,7 @@
 
 mod convert;
 mod csv_file;
+mod csv_rows;
 pub mod cwa;
 mod cwa_file;
 mod decimal;
