@@ -32,6 +32,12 @@ pub enum Times {
 }
 
 impl Times {
+    /// Whether there are none: never, as a parser makes them.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// How many.
     pub fn len(&self) -> usize {
         match self {

@@ -59,8 +59,8 @@ impl Clock {
         let utc = match self.epoch {
             Epoch::Unix => in_range(unwrapped)?,
             Epoch::Boot => in_range(i128::from(self.anchor.ok_or(ClockError::NoAnchor)?.0) + unwrapped)?,
-            Epoch::Local => self.from_local(in_range(unwrapped)?)?,
-            Epoch::LocalAtStart => self.from_local_at_start(in_range(unwrapped)?)?,
+            Epoch::Local => self.utc_of_local(in_range(unwrapped)?)?,
+            Epoch::LocalAtStart => self.utc_of_local_at_start(in_range(unwrapped)?)?,
         };
         self.last_unwrapped = Some(unwrapped);
         self.last = Some(utc);
@@ -79,11 +79,11 @@ impl Clock {
         }
     }
 
-    fn from_local_at_start(&mut self, local: UtcNs) -> Result<UtcNs, ClockError> {
+    fn utc_of_local_at_start(&mut self, local: UtcNs) -> Result<UtcNs, ClockError> {
         match self.known {
             Some((_, offset_ns)) => in_range(i128::from(local.0) - i128::from(offset_ns)),
             None => {
-                let utc = self.from_local(local)?;
+                let utc = self.utc_of_local(local)?;
                 self.known = Some((0, local.0 - utc.0));
                 Ok(utc)
             }
@@ -91,7 +91,7 @@ impl Clock {
     }
 
     /// `local`: ns since 1970-01-01 00:00 on the wall clock.
-    fn from_local(&mut self, local: UtcNs) -> Result<UtcNs, ClockError> {
+    fn utc_of_local(&mut self, local: UtcNs) -> Result<UtcNs, ClockError> {
         let quarter = local.0.div_euclid(QUARTER_NS);
         if let Some((known, offset_ns)) = self.known
             && known == quarter
