@@ -11,3 +11,4 @@ mod image_times;
 mod packets;
 mod round_trip;
 mod support;
+mod survey;
