@@ -4,8 +4,10 @@
 #![allow(clippy::print_stdout, reason = "what was measured, and what was skipped, shows with --nocapture")]
 
 mod bad_input;
+mod check;
 mod documents;
 mod flow;
+mod inspect;
 mod layers;
 mod measure;
 mod project;
