@@ -1,6 +1,6 @@
 //! The documents agree with the files that they speak of.
 
-use crate::support::root;
+use crate::support::{published_bench, root, run, stdout};
 
 fn text(file: &str) -> String {
     std::fs::read_to_string(root().join(file)).unwrap().replace("\r\n", "\n")
@@ -26,9 +26,15 @@ fn ci_runs_the_readme_s_commands() {
 #[test]
 fn links_lead_somewhere() {
     let mut checked = 0;
-    for document in
-        ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "docs/accuracy.md", "docs/study.md", "docs/devices.md"]
-    {
+    for document in [
+        "README.md",
+        "ARCHITECTURE.md",
+        "CONTRIBUTING.md",
+        "docs/accuracy.md",
+        "docs/study.md",
+        "docs/devices.md",
+        "docs/inspect.md",
+    ] {
         let folder = root().join(document).parent().unwrap().to_owned();
         for link in text(document).split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link) {
             let file = link.split('#').next().unwrap();
@@ -39,4 +45,14 @@ fn links_lead_somewhere() {
         }
     }
     assert!(checked > 10);
+}
+
+/// What the document shows of a session is what `inspect` prints.
+#[test]
+fn the_sample_of_inspect_is_what_it_prints() {
+    let output = run(["inspect", published_bench().to_str().unwrap()]);
+    let printed = stdout(&output);
+    let shown = printed.split("\n\n").find(|session| session.starts_with("bench-35cm-55deg\n")).unwrap();
+    let indented: String = shown.lines().map(|line| format!("    {line}\n")).collect();
+    assert!(text("docs/inspect.md").contains(&indented), "copy into docs/inspect.md:\n{indented}");
 }

@@ -4,9 +4,11 @@
 #![allow(clippy::print_stdout, reason = "what was measured, and what was skipped, shows with --nocapture")]
 
 mod bad_input;
+mod check;
 mod damage;
 mod documents;
 mod flow;
+mod inspect;
 mod layers;
 mod measure;
 mod project;

@@ -2,10 +2,11 @@
 
 mod study;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-pub use study::{Shot, StudyFolder, label_me, line, outline};
+pub use study::{Shot, StudyFolder, label_me, line, outline, small_camera, small_picture};
 
 /// The binary under test.
 pub fn aim_batch() -> Command {
@@ -91,4 +92,19 @@ pub fn copy_folder(from: &Path, to: &Path) {
             std::fs::copy(entry.path(), target).unwrap();
         }
     }
+}
+
+/// All files below a folder with their bytes.
+pub fn files_below(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files.extend(files_below(&path));
+        } else {
+            let bytes = std::fs::read(&path).unwrap();
+            files.insert(path, bytes);
+        }
+    }
+    files
 }

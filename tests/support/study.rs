@@ -103,3 +103,17 @@ pub fn line(label: &str, ends: [[f64; 2]; 2]) -> Value {
 pub fn outline(label: &str, points: &[[f64; 2]]) -> Value {
     json!({"label": label, "points": points, "group_id": null, "shape_type": "polygon", "flags": {}})
 }
+
+/// A camera file for [`small_picture`].
+pub fn small_camera() -> String {
+    "schema_version = 1\nname = \"c\"\nwidth_px = 64\nheight_px = 48\nfocal_px = [60.0, 60.0]\n\
+     principal_px = [32.0, 24.0]\n[lens]\nmodel = \"none\"\n"
+        .to_owned()
+}
+
+/// A black JPEG of 64 x 48 px.
+pub fn small_picture() -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image::RgbImage::new(64, 48).write_to(&mut bytes, image::ImageFormat::Jpeg).unwrap();
+    bytes.into_inner()
+}

@@ -35,6 +35,11 @@ pub enum Command {
     /// The main job: ingest what is new, select, measure, write results, print tables
     #[command(allow_negative_numbers = true)]
     Run(RunArgs),
+    /// Before a run: everything that would fail or be dropped, with remedies
+    #[command(allow_negative_numbers = true)]
+    Check(CheckArgs),
+    /// What is in a recording: channels, rates, gaps, clocks, pitch, range, images
+    Inspect(InspectArgs),
     /// One SD card to one MCAP file
     Ingest(IngestArgs),
     /// Tables again, from the files that run wrote
@@ -70,6 +75,20 @@ pub struct RunArgs {
     /// Also write the tables to this folder (CSV, Markdown, LaTeX)
     #[arg(long, env = "AIM_BATCH_REPORT")]
     pub report: Option<PathBuf>,
+    /// Settings in place of study.toml's
+    #[command(flatten)]
+    pub settings: SettingsArgs,
+    /// Compare the tables with those in this folder, and fail where they differ
+    #[arg(long, value_name = "DIR")]
+    pub expect: Option<PathBuf>,
+    /// Largest difference allowed by --expect: percentage points of an error, per cent of a size
+    #[arg(long, value_name = "PCT", default_value_t = 0.15, requires = "expect")]
+    pub tolerance: f64,
+}
+
+/// Settings that win over study.toml.
+#[derive(Debug, clap::Args)]
+pub struct SettingsArgs {
     /// Methods (paper, ray), separated by commas; default: those of study.toml
     #[arg(long, env = "AIM_BATCH_METHOD", value_delimiter = ',')]
     pub method: Vec<Method>,
@@ -79,12 +98,39 @@ pub struct RunArgs {
     /// Half width of the window around it, in degrees; default: study.toml's
     #[arg(long, env = "AIM_BATCH_PITCH_TOLERANCE")]
     pub pitch_tolerance: Option<f64>,
-    /// Compare the tables with those in this folder, and fail where they differ
-    #[arg(long, value_name = "DIR")]
-    pub expect: Option<PathBuf>,
-    /// Largest difference allowed by --expect: percentage points of an error, per cent of a size
-    #[arg(long, value_name = "PCT", default_value_t = 0.15, requires = "expect")]
-    pub tolerance: f64,
+}
+
+/// `check`.
+#[derive(Debug, clap::Args)]
+pub struct CheckArgs {
+    /// Folder of the study (docs/study.md); nothing is written into it
+    pub study: PathBuf,
+    /// Sessions at a time; default: the cores that this process may use
+    #[arg(short, long, env = "AIM_BATCH_JOBS")]
+    pub jobs: Option<NonZeroUsize>,
+    /// Also show what is worth knowing and costs nothing
+    #[arg(long)]
+    pub notes: bool,
+    /// JSON on stdout (docs/inspect.md)
+    #[arg(long)]
+    pub json: bool,
+    /// Settings in place of study.toml's
+    #[command(flatten)]
+    pub settings: SettingsArgs,
+}
+
+/// `inspect`.
+#[derive(Debug, clap::Args)]
+pub struct InspectArgs {
+    /// MCAP file that ingest or run wrote, or folder of a study; nothing is written there
+    #[arg(value_name = "FILE|STUDY")]
+    pub path: PathBuf,
+    /// Sessions of a study at a time; default: the cores that this process may use
+    #[arg(short, long, env = "AIM_BATCH_JOBS")]
+    pub jobs: Option<NonZeroUsize>,
+    /// JSON on stdout (docs/inspect.md)
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `ingest`.

@@ -22,6 +22,8 @@ fn main() -> ExitCode {
     logging::start(args.verbose, args.log_format, &bars);
     let outcome = match &args.command {
         Command::Run(run) => commands::run::run(run, args.log_format, &bars),
+        Command::Check(check) => commands::check::run(check, &bars),
+        Command::Inspect(inspect) => commands::inspect::run(inspect, &bars),
         Command::Ingest(ingest) => commands::ingest::run(ingest, &bars),
         Command::Report(report) => commands::report::run(report),
         Command::Project(project) => commands::project::run(project),

@@ -9,6 +9,7 @@ use sha2::{Digest, Sha256};
 
 use crate::card::{Card, CardFile, Inputs, Patterns, open_hashing, too_large};
 use crate::ingest::{IngestError, SessionSource};
+use crate::mcap_file::Keep;
 use crate::mcap_file::metadata::toml_text;
 use crate::profile::Profile;
 use crate::progress::{IngestProgress, NoProgress};
@@ -52,6 +53,15 @@ pub(crate) fn inputs_key_with(source: &SessionSource, progress: &dyn IngestProgr
 #[must_use]
 pub fn ingest_is_current(out: &Path, key: &str) -> bool {
     SessionReader::open(out).is_ok_and(|reader| reader.metadata().key == key)
+}
+
+/// The key of a survey begins with this, so that a survey never passes for the file of its session.
+pub(crate) const SURVEY: &str = "survey:";
+
+/// The key of a file with images, or of a survey.
+pub(crate) fn key_as(keep: Keep, source: &SessionSource, inputs: &Inputs) -> Result<String, IngestError> {
+    let key = key_of(source, inputs)?;
+    Ok(if keep == Keep::Images { key } else { format!("{SURVEY}{key}") })
 }
 
 #[derive(Serialize)]

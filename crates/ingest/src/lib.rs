@@ -3,7 +3,7 @@
 //! - [`profile`]: what a device writes on its card, declared in a versioned TOML file; [`camera`]: likewise its camera.
 //! - [`parse`]: packets, CSV, image times and image headers. No I/O: byte slices and [`std::io::Read`] only.
 //! - [`card`]: finds and reads the files of a card, and hashes the bytes as they are read.
-//! - [`ingest_session`] writes the MCAP file; [`SessionReader`] streams it back in bounded memory.
+//! - [`ingest_session`] writes the MCAP file ([`survey_session`] one without pictures, to look before a run); [`SessionReader`] streams it back in bounded memory.
 //!
 //! # Conventions
 //! - Times are [`model::UtcNs`]: a device's stamp becomes one only as its profile declares.
@@ -56,7 +56,7 @@ mod thumbnail;
 pub mod timeline;
 
 pub use config::ConfigError;
-pub use ingest::{IngestError, Ingested, SessionSource, ingest_if_changed, ingest_session};
+pub use ingest::{IngestError, Ingested, SessionSource, ingest_if_changed, ingest_session, survey_session};
 pub use key::{INGEST_VERSION, ingest_is_current, inputs_key};
 pub use profile::Profile;
 pub use progress::{IngestProgress, NoProgress};

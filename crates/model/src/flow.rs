@@ -156,6 +156,13 @@ impl StudyFlow {
         self.sessions.entry(frame.session.clone()).or_default().add(frame);
     }
 
+    /// Counts the images of `other`, too.
+    pub fn merge(&mut self, other: Self) {
+        for (session, flow) in other.sessions {
+            self.sessions.entry(session).or_default().merge(&flow);
+        }
+    }
+
     /// The sessions with images, by name.
     pub fn sessions(&self) -> impl Iterator<Item = (&str, &Flow)> {
         self.sessions.iter().map(|(name, flow)| (name.as_str(), flow))

@@ -4,19 +4,29 @@
 //! pitch are selected, people's marks ([`labelme`]) become sizes, and sizes of selected frames are fused. [`run`] does this
 //! for all sessions of a [`Study`] in parallel and hands the rows to a [`model::ResultSink`].
 //!
+//! [`check`] goes the same road without pictures and stores nothing: what a run would lose, before it. [`inspect`] tells
+//! what is in recordings.
+//!
 //! Progress is told to a [`Reporter`]; this crate draws nothing. A session that fails becomes a status with a code, a fact
 //! and a remedy; the others complete.
 #![warn(missing_docs)]
 
+mod check;
 mod inputs;
+pub mod inspect;
 pub mod labelme;
 mod reporter;
 mod run;
 mod session;
+mod sessions;
 pub mod signals;
 pub mod study;
+mod survey;
 
+pub use check::{Checked, check};
+pub use inspect::{inspect_file, inspect_study};
 pub use reporter::{Reporter, Silent};
 pub use run::{RunError, RunOptions, run};
 pub use session::{SessionOptions, SessionOutput, run_session};
 pub use study::{Study, StudyError};
+pub use survey::{SurveyError, SurveyOptions};

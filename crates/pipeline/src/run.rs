@@ -2,16 +2,15 @@
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
-use model::{Problem, ResultSink, RunMetadata, SessionStatus, Severity, Stage};
-use rayon::prelude::*;
+use model::{ResultSink, RunMetadata, SessionStatus};
 
 use crate::inputs::sha256_of_file;
 use crate::reporter::Reporter;
-use crate::session::{SessionOptions, SessionOutput, run_session};
-use crate::study::{SessionDir, Study};
+use crate::session::SessionOptions;
+use crate::sessions::{guarded, in_parallel};
+use crate::study::Study;
 
 /// Settings of a run that are not the study's.
 #[derive(Debug, Clone)]
@@ -69,16 +68,14 @@ pub fn run<S: ResultSink>(
     let mcap_dir = options.work_dir.join("mcap");
     let whole = std::fs::create_dir_all(&mcap_dir).and_then(|()| mcap_dir.canonicalize());
     let mcap_dir = whole.map_err(|source| RunError::WorkDir { path: mcap_dir, source })?;
-    let session_options = SessionOptions { mcap_dir, force: options.force, program: options.program.clone() };
-    let jobs = options.jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-    let threads = jobs.min(study.sessions.len()); // a thread without a session is of no use
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1)).build()?;
+    let session_options =
+        SessionOptions { mcap_dir, force: options.force, survey: false, program: options.program.clone() };
     let mut inputs_sha256 = study_inputs(study)?;
-    reporter.begin(study.sessions.len());
-    let outputs: Vec<SessionOutput> = pool.install(|| {
-        let one = |dir| guarded(study, dir, &session_options, reporter);
-        study.sessions.par_iter().map(one).collect()
-    });
+    let outputs = in_parallel(study, options.jobs, reporter, |dir| {
+        let output = guarded(study, dir, &session_options, reporter);
+        reporter.done(&output.status);
+        output
+    })?;
     let mut sessions = Vec::new();
     for output in outputs {
         sink.session(output.results, output.frames).map_err(RunError::Sink)?;
@@ -96,32 +93,6 @@ pub fn run<S: ResultSink>(
     };
     sink.finish(&metadata).map_err(RunError::Sink)?;
     Ok(sessions)
-}
-
-/// Runs a session; a panic becomes its status, and the other sessions go on.
-fn guarded(study: &Study, dir: &SessionDir, options: &SessionOptions, reporter: &dyn Reporter) -> SessionOutput {
-    let output =
-        catch_unwind(AssertUnwindSafe(|| run_session(study, dir, options, reporter))).unwrap_or_else(|panic| {
-            let said =
-                panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
-            let problem = Problem {
-                severity: Severity::Loss,
-                stage: Stage::Measure,
-                code: "internal_error".to_owned(),
-                place: format!("cards/{}", dir.name),
-                fact: format!("the program failed on this session: {}", said.unwrap_or("no message")),
-                remedy: "report it with this message; the other sessions are not affected".to_owned(),
-            };
-            let status = SessionStatus {
-                session: dir.name.clone(),
-                failed: true,
-                problems: vec![problem],
-                ..SessionStatus::default()
-            };
-            SessionOutput { status, ..SessionOutput::default() }
-        });
-    reporter.done(&output.status);
-    output
 }
 
 fn settings(study: &Study) -> Result<serde_json::Value, serde_json::Error> {

@@ -1,10 +1,14 @@
 //! One file per command.
 
+pub mod check;
 pub mod ingest;
+pub mod inspect;
 pub mod measure;
+mod problems;
 pub mod project;
 pub mod report;
 pub mod run;
+mod settings;
 pub mod simulate;
 mod summary;
 mod view;
@@ -38,9 +42,18 @@ fn tables_text(results: &::report::Results) -> String {
     }
     let by_band = [::report::error_by_pitch(results), ::report::error_by_height(results)];
     tables.extend(by_band.into_iter().filter(|table| !table.rows.is_empty()));
-    tables.extend([::report::flow_in_short(results), ::report::left_out(results)].into_iter().flatten());
+    tables.extend(flow_tables(results));
+    as_wide_as_the_terminal(&tables)
+}
+
+/// What became of the images.
+fn flow_tables(results: &::report::Results) -> impl Iterator<Item = ::report::Table> {
+    [::report::flow_in_short(results), ::report::left_out(results)].into_iter().flatten()
+}
+
+fn as_wide_as_the_terminal(tables: &[::report::Table]) -> String {
     let width = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
-    ::report::terminal_set(&tables, width)
+    ::report::terminal_set(tables, width)
 }
 
 /// The outcome of a command that may have lost something.

@@ -2,11 +2,10 @@
 
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
-use pipeline::study::StudySpec;
 use pipeline::{RunOptions, Study};
 
 use super::summary::tell_summary;
-use super::{PROGRAM, outcome, print, tables_text, tell};
+use super::{PROGRAM, outcome, print, settings, tables_text, tell};
 use crate::args::RunArgs;
 use crate::exit::{Failure, Outcome};
 use crate::logging::LogFormat;
@@ -15,7 +14,7 @@ use crate::progress::Bars;
 /// Runs the study, prints the tables and what was lost.
 pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Failure> {
     check(args)?;
-    let study = Study::load(&args.study, |spec| apply(args, spec)).map_err(Failure::usage)?;
+    let study = Study::load(&args.study, |spec| settings::apply(&args.settings, spec)).map_err(Failure::usage)?;
     let frames = ::report::frames_file(&args.out);
     let options = RunOptions {
         jobs: args.jobs,
@@ -47,19 +46,6 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
         return Err(Failure::Failed(anyhow!("no session could be used")));
     }
     Ok(outcome(sessions.iter().any(SessionStatus::has_losses)))
-}
-
-/// Flags and environment win over study.toml.
-fn apply(args: &RunArgs, spec: &mut StudySpec) {
-    if !args.method.is_empty() {
-        spec.measure.methods.clone_from(&args.method);
-    }
-    if let Some(pitch_deg) = args.target_pitch {
-        spec.select.target_pitch_deg = pitch_deg;
-    }
-    if let Some(tolerance_deg) = args.pitch_tolerance {
-        spec.select.pitch_tolerance_deg = tolerance_deg;
-    }
 }
 
 /// What would otherwise fail at the end of a night.

@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 use std::io;
 use std::path::Path;
 
-use model::{Problem, SessionStatus};
+use model::SessionStatus;
 
+use super::problems::{describe, kinds};
 use super::tell;
 use crate::logging::LogFormat;
 
@@ -35,30 +36,15 @@ pub fn tell_summary(sessions: &[SessionStatus], files: &[&Path], format: LogForm
 
 /// Problems of one kind together, those of failed sessions first.
 fn problems(sessions: &[SessionStatus]) -> String {
-    let mut kinds: Vec<Vec<(&SessionStatus, &Problem)>> = Vec::new();
     let in_order = |failed: bool| sessions.iter().filter(move |session| session.failed == failed);
-    for session in in_order(true).chain(in_order(false)) {
-        for problem in &session.problems {
-            match kinds.iter_mut().find(|kind| (kind[0].1.stage, &kind[0].1.code) == (problem.stage, &problem.code)) {
-                Some(kind) => kind.push((session, problem)),
-                None => kinds.push(vec![(session, problem)]),
-            }
-        }
-    }
+    let labelled = |session: &'_ SessionStatus| {
+        let label = format!("{}{}", session.session, if session.failed { " (session lost)" } else { "" });
+        move |problem| (label.clone(), problem)
+    };
+    let all = in_order(true).chain(in_order(false));
+    let kinds = kinds(all.flat_map(|session| session.problems.iter().map(labelled(session))));
     let mut text = String::new();
-    for kind in kinds.iter().take(KINDS_LISTED) {
-        let (session, problem) = kind[0];
-        let lost = if session.failed { " (session lost)" } else { "" };
-        let _ = writeln!(
-            text,
-            "{}{lost} [{}] {}: {}\n    {}",
-            session.session, problem.stage, problem.code, problem.place, problem.fact
-        );
-        if kind.len() > 1 {
-            let _ = writeln!(text, "    and {} more of this kind", kind.len() - 1);
-        }
-        let _ = writeln!(text, "    -> {}", problem.remedy);
-    }
+    kinds.iter().take(KINDS_LISTED).for_each(|kind| describe(&mut text, "", kind));
     let listed = kinds.len().min(KINDS_LISTED);
     if kinds.len() > listed || kinds.iter().any(|kind| kind.len() > 1) {
         text.push_str("all of them: -v, or the metadata aim_batch.run of the results (docs/results.md)\n");

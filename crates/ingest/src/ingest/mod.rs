@@ -17,6 +17,7 @@ use model::CameraSpec;
 
 use crate::card::{Card, Declared, Place};
 use crate::key;
+use crate::mcap_file::Keep;
 use crate::profile::Profile;
 use crate::progress::IngestProgress;
 use crate::summary::IngestSummary;
@@ -87,6 +88,29 @@ pub fn ingest_session(
     out: &Path,
     progress: &dyn IngestProgress,
 ) -> Result<IngestSummary, IngestError> {
+    ingest_as(Keep::Images, source, out, progress)
+}
+
+/// As [`ingest_session`], and finds the same problems, but `out` has no image data, only the list of images: what a check
+/// needs before a run. Reads as much of the card, and writes little. The file is not made durable, and its key is that of
+/// no session, so that it never passes for one; write it into a temporary folder.
+///
+/// # Errors
+/// As [`ingest_session`].
+pub fn survey_session(
+    source: &SessionSource,
+    out: &Path,
+    progress: &dyn IngestProgress,
+) -> Result<IngestSummary, IngestError> {
+    ingest_as(Keep::ListOfImages, source, out, progress)
+}
+
+fn ingest_as(
+    keep: Keep,
+    source: &SessionSource,
+    out: &Path,
+    progress: &dyn IngestProgress,
+) -> Result<IngestSummary, IngestError> {
     source.profile.check(Path::new("device profile"))?;
     let camera = source.camera_spec.camera()?;
     let card = source.list_card()?;
@@ -95,7 +119,7 @@ pub fn ingest_session(
     progress.begin(bytes);
     tracing::debug!(session = source.session, bytes, "ingest");
 
-    let mut run = Run::new(source, out, &place, progress)?;
+    let mut run = Run::new(source, out, keep, &place, progress)?;
     run.problems.extend(card.problems.iter().cloned());
     run.sensors(&card)?;
     let entries = run.images(&card)?;

@@ -11,7 +11,7 @@ use super::{IngestError, SessionSource, dropped, recordings};
 use crate::card::{Anchoring, Card, CardFile, Inputs, Layout, Patterns, Place, Stream, TakenImage, read_image};
 use crate::key::{self, INGEST_VERSION};
 use crate::mcap_file::metadata::Facts;
-use crate::mcap_file::{SessionWriter, WriteError};
+use crate::mcap_file::{Keep, SessionWriter, WriteError};
 use crate::profile::Images;
 use crate::progress::IngestProgress;
 use crate::summary::{Counts, DroppedImage, ImageEntry, IngestSummary};
@@ -23,6 +23,7 @@ pub(super) struct Run<'a> {
     out: &'a Path,
     place: &'a Place,
     progress: &'a dyn IngestProgress,
+    keep: Keep,
     writer: SessionWriter,
     pub inputs: Inputs,
     pub problems: Vec<Problem>,
@@ -35,6 +36,7 @@ impl<'a> Run<'a> {
     pub fn new(
         source: &'a SessionSource,
         out: &'a Path,
+        keep: Keep,
         place: &'a Place,
         progress: &'a dyn IngestProgress,
     ) -> Result<Self, IngestError> {
@@ -43,7 +45,8 @@ impl<'a> Run<'a> {
             out,
             place,
             progress,
-            writer: SessionWriter::create(out).map_err(|error| write_error(out, error))?,
+            keep,
+            writer: SessionWriter::create(out, keep).map_err(|error| write_error(out, error))?,
             inputs: Inputs::default(),
             problems: Vec::new(),
             counts: Counts::default(),
@@ -152,7 +155,7 @@ impl<'a> Run<'a> {
             session: self.source.session.clone(),
             program: self.source.program.clone(),
             ingest_version: INGEST_VERSION,
-            key: key::key_of(self.source, &self.inputs)?,
+            key: key::key_as(self.keep, self.source, &self.inputs)?,
             time_zone: key::zone_name(&self.source.time_zone),
             counts: self.counts,
             timeline: self.timeline,

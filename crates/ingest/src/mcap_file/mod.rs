@@ -5,7 +5,7 @@ pub(crate) mod messages;
 pub(crate) mod metadata;
 mod writer;
 
-pub(crate) use writer::{SessionWriter, WriteError};
+pub(crate) use writer::{Keep, SessionWriter, WriteError};
 
 /// Topics.
 pub(crate) mod topic {

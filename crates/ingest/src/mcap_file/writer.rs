@@ -35,6 +35,15 @@ pub enum WriteError {
     NoSchema(String),
 }
 
+/// What becomes of images.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Keep {
+    /// They are written: a session's own file.
+    Images,
+    /// They are only listed, and nothing is made durable: a survey, which is soon deleted.
+    ListOfImages,
+}
+
 /// Sensor messages come first, each sensor in chunks of its own, then one chunk per image, then the list of images: a pass
 /// over a sensor reads nothing else.
 pub(crate) struct SessionWriter {
@@ -44,11 +53,12 @@ pub(crate) struct SessionWriter {
     encoded: Vec<u8>,
     first_time: Option<UtcNs>,
     last_time: Option<UtcNs>,
+    keep: Keep,
     sequences: BTreeMap<u16, u32>,
 }
 
 impl SessionWriter {
-    pub fn create(out: &Path) -> Result<Self, WriteError> {
+    pub fn create(out: &Path, keep: Keep) -> Result<Self, WriteError> {
         let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         std::fs::create_dir_all(folder)?;
         let mut builder = tempfile::Builder::new();
@@ -73,6 +83,7 @@ impl SessionWriter {
             encoded: Vec::new(),
             first_time: None,
             last_time: None,
+            keep,
             sequences: BTreeMap::new(),
         })
     }
@@ -131,8 +142,11 @@ impl SessionWriter {
         Ok(())
     }
 
-    /// Writes an image into a chunk of its own. Its sequence number goes into the list of images.
-    pub fn image(&mut self, time: UtcNs, encoding: Encoding, bytes: Vec<u8>) -> Result<u32, WriteError> {
+    /// Writes an image into a chunk of its own.
+    pub fn image(&mut self, time: UtcNs, encoding: Encoding, bytes: Vec<u8>) -> Result<(), WriteError> {
+        if self.keep == Keep::ListOfImages {
+            return Ok(());
+        }
         self.mcap.flush()?;
         let message = CompressedImage {
             timestamp: timestamp(time),
@@ -140,7 +154,7 @@ impl SessionWriter {
             data: bytes.into(),
             format: encoding.name().to_owned(),
         };
-        self.write(topic::IMAGE, time, &message)
+        self.write(topic::IMAGE, time, &message).map(|_| ())
     }
 
     /// Writes the list of images, in the order of their sequence numbers from 0.
@@ -169,6 +183,10 @@ impl SessionWriter {
         }
         self.mcap.finish()?;
         let file = self.mcap.into_inner().into_inner().map_err(std::io::IntoInnerError::into_error)?;
+        if self.keep == Keep::ListOfImages {
+            file.persist(&self.out).map_err(|error| error.error)?;
+            return Ok(());
+        }
         file.as_file().sync_all()?;
         file.persist(&self.out).map_err(|error| error.error)?;
         #[cfg(unix)]

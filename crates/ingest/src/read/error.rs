@@ -34,6 +34,11 @@ pub(crate) enum Damage {
     NoIndex,
     #[error("a message cannot be decoded ({0}); delete the file and ingest the session again")]
     Message(#[from] prost::DecodeError),
+    #[error(
+        "an MCAP file, but not a file of this program: it has no metadata record {}; 'aim-batch ingest' makes one from an SD card",
+        crate::mcap_file::metadata::SEAL
+    )]
+    NotOurs,
     #[error("{0}; delete the file and ingest the session again")]
     Metadata(#[from] MetadataError),
     #[error("a message's time {0} ns is after the year 2262; delete the file and ingest the session again")]

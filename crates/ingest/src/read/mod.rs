@@ -14,8 +14,9 @@ use std::path::{Path, PathBuf};
 
 use model::{CameraSpec, Problem, UtcNs};
 
+use crate::key::SURVEY;
 use crate::mcap_file::messages::ImageFile;
-use crate::mcap_file::metadata::Facts;
+use crate::mcap_file::metadata::{Facts, SEAL};
 use crate::mcap_file::topic;
 use crate::profile::Profile;
 use crate::sample::Sample;
@@ -55,6 +56,14 @@ pub struct SessionMetadata {
     pub problems: Vec<Problem>,
 }
 
+impl SessionMetadata {
+    /// Whether the file is a survey: it lists the images and has none of them.
+    #[must_use]
+    pub fn is_survey(&self) -> bool {
+        self.key.starts_with(SURVEY)
+    }
+}
+
 /// Reads the MCAP file of a session. Memory is bounded by the chunks that overlap in time, and one image.
 #[derive(Debug)]
 pub struct SessionReader {
@@ -74,6 +83,9 @@ impl SessionReader {
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let file = File::open(path).map_err(|error| ReadError::new(path, Damage::Io(error)))?;
         let (index, records) = Index::read(&file).map_err(|damage| ReadError::new(path, damage))?;
+        if !records.contains_key(SEAL) {
+            return Err(ReadError::new(path, Damage::NotOurs));
+        }
         let facts = Facts::from_records(records).map_err(|error| ReadError::new(path, error.into()))?;
         let metadata = SessionMetadata {
             session: facts.session,
@@ -139,7 +151,7 @@ impl SessionReader {
     /// # Errors
     /// As [`Self::for_each_sample`].
     pub fn for_each_acceleration(&mut self, each: impl FnMut(UtcNs, [f32; 3])) -> Result<(), ReadError> {
-        let read = samples::for_each::<samples::Acceleration>(&self.file, &self.index, each);
+        let read = samples::for_each::<samples::Acceleration>(&self.file, &self.index, topic::ACCELERATION, each);
         read.map_err(|damage| ReadError::new(&self.path, damage))
     }
 
@@ -148,7 +160,24 @@ impl SessionReader {
     /// # Errors
     /// As [`Self::for_each_sample`].
     pub fn for_each_range(&mut self, each: impl FnMut(UtcNs, f32)) -> Result<(), ReadError> {
-        let read = samples::for_each::<samples::Range>(&self.file, &self.index, each);
+        let read = samples::for_each::<samples::Range>(&self.file, &self.index, topic::RANGE, each);
+        read.map_err(|damage| ReadError::new(&self.path, damage))
+    }
+
+    /// Names of the channels that are carried along and not used.
+    #[must_use]
+    pub fn extra_channels(&self) -> Vec<String> {
+        self.index.topics_with(topic::EXTRA)
+    }
+
+    /// Calls `each` with time and value (as the device counts it; NaN where missing) of all samples of a channel that is
+    /// carried along, in order of time; never for a name that is not in [`Self::extra_channels`].
+    ///
+    /// # Errors
+    /// As [`Self::for_each_sample`].
+    pub fn for_each_extra(&mut self, name: &str, each: impl FnMut(UtcNs, f32)) -> Result<(), ReadError> {
+        let topic = format!("{}{name}", topic::EXTRA);
+        let read = samples::for_each::<samples::Extra>(&self.file, &self.index, &topic, each);
         read.map_err(|damage| ReadError::new(&self.path, damage))
     }
 

@@ -7,14 +7,11 @@ use model::UtcNs;
 use super::chunk;
 use super::error::Damage;
 use super::summary::{ChunkAt, Index};
-use crate::mcap_file::messages::{AccelerationBlock, RangeBlock};
-use crate::mcap_file::topic;
+use crate::mcap_file::messages::{AccelerationBlock, ExtraBlock, RangeBlock};
 use crate::timeline::Times;
 
 /// A sensor, as its messages are read.
 pub(super) trait Sensor {
-    /// Its topic.
-    const TOPIC: &'static str;
     /// One sample.
     type Value: Copy;
 
@@ -26,9 +23,10 @@ pub(super) trait Sensor {
 pub(super) struct Acceleration;
 /// Range in mm, as the sensor gave it.
 pub(super) struct Range;
+/// A channel that is carried along, as the device counts it.
+pub(super) struct Extra;
 
 impl Sensor for Acceleration {
-    const TOPIC: &'static str = topic::ACCELERATION;
     type Value = [f32; 3];
 
     fn decode(time: UtcNs, data: &[u8], out: &mut Vec<(UtcNs, [f32; 3])>) -> Result<(), Damage> {
@@ -43,12 +41,20 @@ impl Sensor for Acceleration {
 }
 
 impl Sensor for Range {
-    const TOPIC: &'static str = topic::RANGE;
     type Value = f32;
 
     fn decode(time: UtcNs, data: &[u8], out: &mut Vec<(UtcNs, f32)>) -> Result<(), Damage> {
         let RangeBlock { step_ns, offset_ns, range_mm } = prost::Message::decode(data)?;
         timed(time, (step_ns, offset_ns), range_mm.len(), range_mm.into_iter(), out)
+    }
+}
+
+impl Sensor for Extra {
+    type Value = f32;
+
+    fn decode(time: UtcNs, data: &[u8], out: &mut Vec<(UtcNs, f32)>) -> Result<(), Damage> {
+        let ExtraBlock { step_ns, offset_ns, value } = prost::Message::decode(data)?;
+        timed(time, (step_ns, offset_ns), value.len(), value.into_iter(), out)
     }
 }
 
@@ -72,14 +78,15 @@ fn timed<V>(
     Ok(())
 }
 
-/// Calls `each` with all samples of a sensor in order of time; at equal times in the order of the file. Holds the chunks
+/// Calls `each` with all samples of a topic in order of time; at equal times in the order of the file. Holds the chunks
 /// that overlap in time: one, unless the clock was set back.
 pub(super) fn for_each<S: Sensor>(
     file: &File,
     index: &Index,
+    topic: &str,
     mut each: impl FnMut(UtcNs, S::Value),
 ) -> Result<(), Damage> {
-    let mut waiting = index.sensor_chunks(S::TOPIC).into_iter().peekable();
+    let mut waiting = index.sensor_chunks(topic).into_iter().peekable();
     let mut open: Vec<Open<S>> = Vec::new();
     loop {
         let earliest = (0..open.len()).min_by_key(|i| (open[*i].time(), open[*i].offset));
@@ -89,7 +96,7 @@ pub(super) fn for_each<S: Sensor>(
         });
         if opens_next {
             let Some(at) = waiting.next() else { continue };
-            open.extend(Open::read(file, index, &at)?);
+            open.extend(Open::read(file, index, topic, &at)?);
             continue;
         }
         let Some(i) = earliest else { return Ok(()) };
@@ -120,10 +127,10 @@ struct Open<S: Sensor> {
 }
 
 impl<S: Sensor> Open<S> {
-    fn read(file: &File, index: &Index, at: &ChunkAt) -> Result<Option<Self>, Damage> {
+    fn read(file: &File, index: &Index, topic: &str, at: &ChunkAt) -> Result<Option<Self>, Damage> {
         let mut samples = Vec::new();
         chunk::for_each_message(file, at, |header, data| {
-            if index.topic(header.channel_id) == Some(S::TOPIC) {
+            if index.topic(header.channel_id) == Some(topic) {
                 S::decode(chunk::time_of(header)?, data, &mut samples)?;
             }
             Ok(())

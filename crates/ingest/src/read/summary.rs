@@ -83,14 +83,22 @@ impl Index {
         self.topics.get(&channel).map(String::as_str)
     }
 
+    /// Names of the topics that begin with `prefix`, without it, sorted.
+    pub fn topics_with(&self, prefix: &str) -> Vec<String> {
+        let mut names: Vec<String> =
+            self.topics.values().filter_map(|topic| topic.strip_prefix(prefix)).map(str::to_owned).collect();
+        names.sort();
+        names
+    }
+
     /// The chunks that hold messages of any of these topics, in file order.
-    pub fn chunks_of<'i>(&'i self, topics: &'i [&'static str]) -> impl Iterator<Item = &'i ChunkAt> {
+    pub fn chunks_of<'i>(&'i self, topics: &'i [&'i str]) -> impl Iterator<Item = &'i ChunkAt> {
         let holds = |channel: &u16| self.topic(*channel).is_some_and(|topic| topics.contains(&topic));
         self.chunks.iter().filter(move |chunk| chunk.channels.iter().any(holds))
     }
 
     /// The chunks of a sensor, by the time of their first message.
-    pub fn sensor_chunks(&self, topic: &'static str) -> Vec<ChunkAt> {
+    pub fn sensor_chunks(&self, topic: &str) -> Vec<ChunkAt> {
         let mut chunks: Vec<ChunkAt> = self.chunks_of(&[topic]).cloned().collect();
         chunks.sort_by_key(|chunk| (chunk.start, chunk.offset));
         chunks

@@ -14,3 +14,4 @@ mod odd_cards;
 mod packets;
 mod round_trip;
 mod support;
+mod survey;

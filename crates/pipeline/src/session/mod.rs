@@ -20,7 +20,8 @@ use crate::reporter::Reporter;
 use crate::signals::FrameSignals;
 use crate::study::{SessionDir, SessionSpec, Study};
 use marks::SessionMarks;
-use problems::{MARKS_CAMERA_FACT, bad_camera, link_out_of_study, missing_card, no_pose, without_host};
+pub(crate) use problems::without_host;
+use problems::{MARKS_CAMERA_FACT, bad_camera, link_out_of_study, missing_card, no_pose};
 use read::Read;
 
 /// What one session gives.
@@ -43,6 +44,8 @@ pub struct SessionOptions {
     pub mcap_dir: PathBuf,
     /// Whether to ingest cards again that have not changed.
     pub force: bool,
+    /// Whether to survey cards only: MCAP files then have no pictures, and belong into a temporary folder.
+    pub survey: bool,
     /// Program and version, for provenance.
     pub program: String,
 }
@@ -109,24 +112,7 @@ fn fill(
     reporter: &dyn Reporter,
     output: &mut SessionOutput,
 ) -> Result<(), Problem> {
-    let card = dir.card.as_deref().ok_or_else(|| missing_card(dir))?;
-    if !study.holds(card) {
-        return Err(link_out_of_study(dir));
-    }
-    let spec = session_spec(study, card, output)?;
-    let (camera_spec, camera) = study.camera_of_session(&spec).map_err(|error| bad_camera(dir, error.to_string()))?;
-    let marks_camera = study.marks_camera_of_session(&spec, camera);
-    let marks_camera = marks_camera.map_err(|error| bad_camera(dir, error.to_string()))?;
-    let marks_camera = marks_camera.ok_or_else(|| bad_camera(dir, MARKS_CAMERA_FACT.to_owned()))?;
-    let source = SessionSource {
-        session: dir.name.clone(),
-        card_dir: card.to_owned(),
-        profile: study.profile.clone(),
-        camera_spec,
-        time_zone: study.time_zone.clone(),
-        clock_zero_utc: spec.clock_zero_utc,
-        program: options.program.clone(),
-    };
+    let (spec, source, marks_camera) = source_of(study, dir, &options.program, output)?;
     reporter.stage(&dir.name, Stage::Ingest);
     let mcap = ingest_card(&source, options, reporter)?;
     reporter.stage(&dir.name, Stage::Signals);
@@ -149,6 +135,34 @@ fn fill(
     Ok(())
 }
 
+/// What a session is ingested from, and the camera of its marked pictures.
+pub(crate) fn source_of(
+    study: &Study,
+    dir: &SessionDir,
+    program: &str,
+    output: &mut SessionOutput,
+) -> Result<(SessionSpec, SessionSource, Camera), Problem> {
+    let card = dir.card.as_deref().ok_or_else(|| missing_card(dir))?;
+    if !study.holds(card) {
+        return Err(link_out_of_study(dir));
+    }
+    let spec = session_spec(study, card, output)?;
+    let (camera_spec, camera) = study.camera_of_session(&spec).map_err(|error| bad_camera(dir, error.to_string()))?;
+    let marks_camera = study.marks_camera_of_session(&spec, camera);
+    let marks_camera = marks_camera.map_err(|error| bad_camera(dir, error.to_string()))?;
+    let marks_camera = marks_camera.ok_or_else(|| bad_camera(dir, MARKS_CAMERA_FACT.to_owned()))?;
+    let source = SessionSource {
+        session: dir.name.clone(),
+        card_dir: card.to_owned(),
+        profile: study.profile.clone(),
+        camera_spec,
+        time_zone: study.time_zone.clone(),
+        clock_zero_utc: spec.clock_zero_utc,
+        program: program.to_owned(),
+    };
+    Ok((spec, source, marks_camera))
+}
+
 fn session_spec(study: &Study, card: &Path, output: &mut SessionOutput) -> Result<SessionSpec, Problem> {
     let path = card.join("session.toml");
     if !path.is_file() {
@@ -166,10 +180,17 @@ fn session_spec(study: &Study, card: &Path, output: &mut SessionOutput) -> Resul
     ingest::config::read_toml(&path).map_err(|error| refuse(error.to_string()))
 }
 
-fn ingest_card(source: &SessionSource, options: &SessionOptions, reporter: &dyn Reporter) -> Result<PathBuf, Problem> {
+/// Ingests a card, or surveys it; gives the MCAP file.
+pub(crate) fn ingest_card(
+    source: &SessionSource,
+    options: &SessionOptions,
+    reporter: &dyn Reporter,
+) -> Result<PathBuf, Problem> {
     let mcap = options.mcap_dir.join(format!("{}.mcap", source.session));
     let progress = Progress { session: &source.session, reporter };
-    let outcome = if options.force {
+    let outcome = if options.survey {
+        ingest::survey_session(source, &mcap, &progress).map(|summary| Ingested::Fresh(Box::new(summary)))
+    } else if options.force {
         ingest::ingest_session(source, &mcap, &progress).map(|summary| Ingested::Fresh(Box::new(summary)))
     } else {
         ingest::ingest_if_changed(source, &mcap, &progress)

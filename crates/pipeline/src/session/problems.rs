@@ -21,7 +21,7 @@ pub(super) fn no_pose(session: &Session<'_>) -> Option<Problem> {
 }
 
 /// Errors of files carry whole paths; what goes into the results must not depend on where the study lies.
-pub(super) fn without_host(fact: &str, study: &Study, mcap_dir: &Path) -> String {
+pub(crate) fn without_host(fact: &str, study: &Study, mcap_dir: &Path) -> String {
     let inside = |folder: &Path| format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR);
     // The work folder may lie in the study, so its name goes first.
     fact.replace(&inside(mcap_dir), "mcap/").replace(&inside(&study.dir), "")

@@ -1,0 +1,75 @@
+//! `check`: everything that a run would lose, before it.
+
+mod json;
+mod text;
+
+use anyhow::anyhow;
+use model::{RunMetadata, SessionStatus};
+use pipeline::{Checked, Study, SurveyOptions};
+
+use super::{PROGRAM, outcome, print, settings};
+use crate::args::CheckArgs;
+use crate::exit::{Failure, Outcome};
+use crate::progress::Bars;
+
+/// Checks the study, and tells what would be lost.
+pub fn run(args: &CheckArgs, bars: &Bars) -> Result<Outcome, Failure> {
+    let study = Study::load(&args.study, |spec| settings::apply(&args.settings, spec)).map_err(Failure::usage)?;
+    let options = SurveyOptions { jobs: args.jobs, program: PROGRAM.to_owned() };
+    let checked = pipeline::check(&study, &options, &bars.for_run())?;
+    if args.json {
+        print(&(json::text(&study, &checked)? + "\n"))?;
+    } else {
+        print(&text::text(&checked, &results(&study, &checked), args.notes))?;
+    }
+    if checked.sessions.iter().all(|session| session.failed) {
+        return Err(Failure::Failed(anyhow!("no session could be used")));
+    }
+    Ok(outcome(checked.sessions.iter().any(SessionStatus::has_losses)))
+}
+
+/// As a run would give them, but for sizes: for the tables of images.
+fn results(study: &Study, checked: &Checked) -> ::report::Results {
+    let metadata = RunMetadata {
+        program: PROGRAM.to_owned(),
+        study: study.spec.name.clone(),
+        statement: None,
+        settings: serde_json::Value::Null,
+        tables: Vec::new(),
+        sessions: checked.sessions.clone(),
+        inputs_sha256: std::collections::BTreeMap::new(),
+    };
+    ::report::Results { rows: Vec::new(), metadata, flow: Some(checked.flow.clone()) }
+}
+
+/// How a session would fare.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+enum Verdict {
+    Whole,
+    LosesData,
+    Fails,
+}
+
+impl Verdict {
+    fn of(session: &SessionStatus) -> Self {
+        match (session.failed, session.has_losses()) {
+            (true, _) => Self::Fails,
+            (false, true) => Self::LosesData,
+            (false, false) => Self::Whole,
+        }
+    }
+
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Whole => "would run whole",
+            Self::LosesData => "would lose data",
+            Self::Fails => "would fail",
+        }
+    }
+
+    /// Number of sessions with this verdict.
+    fn count(self, sessions: &[SessionStatus]) -> usize {
+        sessions.iter().filter(|session| Self::of(session) == self).count()
+    }
+}

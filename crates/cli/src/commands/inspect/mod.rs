@@ -1,0 +1,95 @@
+//! `inspect`: what is in a recording, or in those of a study.
+
+mod clock;
+mod sparkline;
+mod text;
+mod words;
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use anyhow::{Context, anyhow};
+use model::Problem;
+use pipeline::inspect::{Inspected, SessionFacts};
+use pipeline::{Study, SurveyOptions, inspect_file, inspect_study};
+use serde::Serialize;
+
+use super::{PROGRAM, outcome, print};
+use crate::args::InspectArgs;
+use crate::exit::{Failure, Outcome};
+use crate::progress::Bars;
+
+/// Rises when a key is removed, renamed, or changes its meaning.
+const SCHEMA_VERSION: u32 = 1;
+/// How MCAP files begin.
+const MCAP_MAGIC: &[u8] = b"\x89MCAP0\r\n";
+
+/// Inspects, and tells what is there.
+pub fn run(args: &InspectArgs, bars: &Bars) -> Result<Outcome, Failure> {
+    let inspected = if args.path.is_dir() {
+        let options = SurveyOptions { jobs: args.jobs, program: PROGRAM.to_owned() };
+        inspect_study(&study(&args.path)?, &options, &bars.for_run())?
+    } else {
+        require_mcap(&args.path)?;
+        let facts = inspect_file(&args.path, None)?;
+        vec![Inspected { session: facts.session.clone(), facts: Ok(facts) }]
+    };
+    if args.json {
+        print(&(json(&inspected)? + "\n"))?;
+    } else {
+        print(&text::text(&inspected))?;
+    }
+    if inspected.iter().all(|session| session.facts.is_err()) {
+        return Err(Failure::Failed(anyhow!("no session could be used")));
+    }
+    Ok(outcome(inspected.iter().any(|session| session.facts.is_err())))
+}
+
+fn study(folder: &Path) -> Result<Study, Failure> {
+    if !folder.join("study.toml").exists() {
+        return Err(Failure::Usage(anyhow!(
+            "expected a study, but there is no study.toml in it; for a card alone: aim-batch ingest CARD -o X.mcap, then \
+             aim-batch inspect X.mcap: {}",
+            folder.display()
+        )));
+    }
+    Study::load(folder, |_| {}).map_err(Failure::usage)
+}
+
+/// What is no MCAP file at all is not called a damaged one.
+fn require_mcap(path: &Path) -> Result<(), Failure> {
+    let mut start = Vec::new();
+    let file = File::open(path).with_context(|| format!("cannot open {}", path.display())).map_err(Failure::Usage)?;
+    file.take(MCAP_MAGIC.len() as u64).read_to_end(&mut start)?;
+    if start == MCAP_MAGIC {
+        return Ok(());
+    }
+    Err(Failure::Usage(anyhow!("expected an MCAP file or the folder of a study, got neither: {}", path.display())))
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    schema_version: u32,
+    program: &'a str,
+    sessions: Vec<Session<'a>>,
+}
+
+#[derive(Serialize)]
+struct Session<'a> {
+    session: &'a str,
+    facts: Option<&'a SessionFacts>,
+    problem: Option<&'a Problem>,
+}
+
+impl<'a> Session<'a> {
+    fn of(inspected: &'a Inspected) -> Self {
+        let Inspected { session, facts } = inspected;
+        Self { session, facts: facts.as_ref().ok(), problem: facts.as_ref().err() }
+    }
+}
+
+fn json(inspected: &[Inspected]) -> serde_json::Result<String> {
+    let sessions = inspected.iter().map(Session::of).collect();
+    serde_json::to_string_pretty(&Document { schema_version: SCHEMA_VERSION, program: PROGRAM, sessions })
+}

@@ -1,0 +1,66 @@
+//! What a run would lose, before it: every stage that needs no pictures, and nothing stored.
+
+mod sizes;
+
+use std::collections::BTreeSet;
+
+use model::{Problem, SessionStatus, StudyFlow};
+
+use crate::reporter::Reporter;
+use crate::session::SessionOutput;
+use crate::sessions::{guarded, in_parallel};
+use crate::study::Study;
+use crate::survey::{Survey, SurveyError, SurveyOptions};
+use sizes::Measured;
+
+/// What a check found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Checked {
+    /// How each session would fare, in the order of the names.
+    pub sessions: Vec<SessionStatus>,
+    /// What would become of the images.
+    pub flow: StudyFlow,
+    /// What concerns the study as a whole: objects without a size, tables that would stay empty.
+    pub study: Vec<Problem>,
+}
+
+/// Goes the road of [`run`](crate::run) for every session, with the same problems, without pictures and without results.
+/// Cards are read whole, since damage shows nowhere else; what is written goes into a temporary folder. Of the rows only
+/// counts are kept.
+///
+/// # Errors
+/// [`SurveyError`] for what concerns the check as a whole.
+pub fn check(study: &Study, options: &SurveyOptions, reporter: &dyn Reporter) -> Result<Checked, SurveyError> {
+    let survey = Survey::new(options)?;
+    let parts = in_parallel(study, options.jobs, reporter, |dir| {
+        let output = guarded(study, dir, &survey.options, reporter);
+        survey.forget(dir);
+        reporter.done(&output.status);
+        Part::of(output)
+    })?;
+    let mut checked = Checked { sessions: Vec::new(), flow: StudyFlow::default(), study: Vec::new() };
+    let mut measured = BTreeSet::new();
+    for part in parts {
+        checked.flow.merge(part.flow);
+        checked.sessions.push(part.status);
+        measured.extend(part.measured);
+    }
+    checked.study = sizes::problems(study, &measured);
+    Ok(checked)
+}
+
+/// What is kept of a session.
+struct Part {
+    status: SessionStatus,
+    flow: StudyFlow,
+    measured: BTreeSet<Measured>,
+}
+
+impl Part {
+    fn of(output: SessionOutput) -> Self {
+        let mut flow = StudyFlow::default();
+        output.frames.iter().for_each(|frame| flow.add(frame));
+        let measured = output.results.iter().filter_map(Measured::of).collect();
+        Self { status: output.status, flow, measured }
+    }
+}

@@ -1,0 +1,103 @@
+//! What is in a recording: channels, rates, gaps, clocks, pitch, range and images, as numbers.
+//!
+//! Each sensor is streamed once; what is kept does not grow with the recording, but for its list of images.
+
+mod acceleration;
+mod channels;
+mod clock;
+mod facts;
+mod histogram;
+mod images;
+mod local_time;
+mod range;
+
+use std::path::Path;
+
+use ingest::{ReadError, SessionReader};
+use model::{Problem, SessionStatus, Severity, Stage};
+
+use crate::reporter::Reporter;
+use crate::session::{SessionOutput, ingest_card, source_of, without_host};
+use crate::sessions::{in_parallel, unless_panicking};
+use crate::study::{SessionDir, Study};
+use crate::survey::{Survey, SurveyError, SurveyOptions};
+
+pub use acceleration::AccelerationFacts;
+pub use channels::ExtraFacts;
+pub use clock::{Ambiguous, ClockFacts, Gaps, Jump, Jumps, LISTED, Stretches};
+pub use facts::{CameraFacts, FileFacts, ProfileFacts, SessionFacts};
+pub use histogram::Histogram;
+pub use images::{DroppedImages, ImageFacts};
+pub use local_time::{LocalSpan, LocalTimeChange, Moment};
+pub use range::RangeFacts;
+
+/// What is in the MCAP file of a session. `mount_pitch_deg`: camera pitch minus sensor pitch, if not the profile's.
+///
+/// # Errors
+/// [`ReadError`] when the file cannot be read, is damaged, or is not of this program.
+pub fn inspect_file(path: &Path, mount_pitch_deg: Option<f64>) -> Result<SessionFacts, ReadError> {
+    facts::of(&mut SessionReader::open(path)?, mount_pitch_deg)
+}
+
+/// One session of a study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inspected {
+    /// Name of the session.
+    pub session: String,
+    /// What is in it, or why nothing of it can be used.
+    pub facts: Result<SessionFacts, Problem>,
+}
+
+/// What is in the cards of a study, in the order of the sessions' names. Cards are read whole; what is written goes into a
+/// temporary folder.
+///
+/// # Errors
+/// [`SurveyError`] for what concerns all sessions.
+pub fn inspect_study(
+    study: &Study,
+    options: &SurveyOptions,
+    reporter: &dyn Reporter,
+) -> Result<Vec<Inspected>, SurveyError> {
+    let survey = Survey::new(options)?;
+    let inspected = in_parallel(study, options.jobs, reporter, |dir| {
+        let facts = unless_panicking(dir, || inspect_session(study, dir, &survey, reporter)).and_then(|facts| facts);
+        survey.forget(dir);
+        let failed = facts.is_err();
+        reporter.done(&SessionStatus { session: dir.name.clone(), failed, ..SessionStatus::default() });
+        Inspected { session: dir.name.clone(), facts }
+    })?;
+    Ok(inspected)
+}
+
+fn inspect_session(
+    study: &Study,
+    dir: &SessionDir,
+    survey: &Survey,
+    reporter: &dyn Reporter,
+) -> Result<SessionFacts, Problem> {
+    let without_host = |problem: Problem| {
+        let fact = without_host(&problem.fact, study, &survey.options.mcap_dir);
+        Problem { fact, ..problem }
+    };
+    reporter.stage(&dir.name, Stage::Ingest);
+    let source = source_of(study, dir, &survey.options.program, &mut SessionOutput::default());
+    let mcap = source.and_then(|(_, source, _)| ingest_card(&source, &survey.options, reporter));
+    reporter.stage(&dir.name, Stage::Signals);
+    let facts = mcap.and_then(|mcap| {
+        inspect_file(&mcap, study.spec.mount.pitch_offset_deg).map_err(|error| unreadable(dir, &error))
+    });
+    let mut facts = facts.map_err(without_host)?;
+    facts.problems = facts.problems.into_iter().map(without_host).collect();
+    Ok(facts)
+}
+
+fn unreadable(dir: &SessionDir, error: &ReadError) -> Problem {
+    Problem {
+        severity: Severity::Loss,
+        stage: Stage::Signals,
+        code: "bad_mcap".to_owned(),
+        place: format!("mcap/{}.mcap", dir.name),
+        fact: error.to_string(),
+        remedy: "check free space and permissions of the temporary folder (TMPDIR)".to_owned(),
+    }
+}

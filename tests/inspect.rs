@@ -1,0 +1,196 @@
+//! `inspect` says what is in a recording.
+
+use std::path::Path;
+use std::process::Output;
+
+use serde_json::Value;
+
+use crate::support::{
+    Shot, StudyFolder, assert_exit, published_bench, real_data, run, small_camera, small_picture, stderr, stdout,
+};
+
+const OBJECTS: &str = "object,kind,shape\nplate,plate,circle\n";
+
+fn inspect(path: &Path, more: &[&str]) -> Output {
+    run([&["inspect", path.to_str().unwrap()], more].concat())
+}
+
+/// Facts of the only session, or of the one with that name.
+fn facts(output: &Output, session: Option<&str>) -> Value {
+    let document: Value = serde_json::from_str(&stdout(output)).unwrap();
+    let sessions = document["sessions"].as_array().unwrap().clone();
+    let found = sessions.into_iter().find(|found| session.is_none_or(|name| found["session"] == name)).unwrap();
+    found["facts"].clone()
+}
+
+fn shot(pitch_deg: f64, range_mm: f64) -> Shot {
+    Shot { picture: small_picture(), extension: "jpg", pitch_deg, roll_deg: 0.0, range_mm, marks: None }
+}
+
+#[track_caller]
+fn assert_near(found: &Value, expected: f64, tolerance: f64) {
+    assert!((found.as_f64().unwrap() - expected).abs() <= tolerance, "{found}, expected {expected}");
+}
+
+#[test]
+fn the_published_bench_fits_80_columns_and_has_its_numbers() {
+    let output = inspect(&published_bench(), &[]);
+    assert_exit(&output, 0);
+    let text = stdout(&output);
+    let too_long: Vec<&str> = text.lines().filter(|line| line.chars().count() > 80).collect();
+    assert!(too_long.is_empty() && text.contains('█'), "{too_long:#?}");
+    assert!(!text.contains('\u{1b}') && text.matches("\n  acceleration  ").count() == 12, "{text}");
+
+    let facts = facts(&inspect(&published_bench(), &["--json"]), Some("bench-35cm-55deg"));
+    assert_eq!((&facts["profile"]["name"], &facts["mount_pitch_deg"]), (&"aim2-packets".into(), &21.0.into()));
+    let acceleration = &facts["acceleration"];
+    assert_near(&acceleration["clock"]["measured_rate_hz"], 127.77, 0.01);
+    assert_near(&acceleration["length_median_mg"], 1000.0, 20.0);
+    let seconds: u64 =
+        acceleration["pitch_deg"]["counts"].as_array().unwrap().iter().map(|n| n.as_u64().unwrap()).sum();
+    assert_near(&facts["recorded"]["duration_s"], seconds as f64, 2.0);
+    // The axis points 55 degrees down at 580 mm.
+    let most = |histogram: &Value| {
+        let counts: Vec<u64> = histogram["counts"].as_array().unwrap().iter().map(|n| n.as_u64().unwrap()).collect();
+        (0..counts.len()).max_by_key(|bin| counts[*bin]).unwrap()
+    };
+    assert!([10, 11].contains(&most(&acceleration["pitch_deg"])), "{acceleration}");
+    assert_eq!(most(&facts["range"]["range_mm"]), 5);
+    assert_eq!(facts["extra"][0]["name"], "optical");
+    assert_eq!(facts["images"]["dropped"], serde_json::json!([]));
+}
+
+#[test]
+fn numbers_of_a_small_session_by_hand() {
+    let study = StudyFolder::new(
+        "time_zone = \"America/Chicago\"\n[mount]\npitch_offset_deg = 10.0\n",
+        OBJECTS,
+        &small_camera(),
+    );
+    study.session("s", &[shot(42.0, 512.0), shot(42.0, 8190.0), Shot { picture: Vec::new(), ..shot(-30.0, 2500.0) }]);
+    let output = inspect(study.path(), &["--json"]);
+    assert_exit(&output, 0);
+    let facts = facts(&output, None);
+    // 6 s of samples around each of three images that are 10 s apart: two gaps of 4 s.
+    let clock = &facts["acceleration"]["clock"];
+    assert_eq!((&clock["samples"], &clock["gaps"]["count"]), (&Value::from(3 * 385), &Value::from(2)));
+    assert_near(&clock["gaps"]["total_s"], 8.0, 1e-6);
+    assert_near(&clock["measured_rate_hz"], 64.0, 1e-3);
+    assert_eq!(clock["recorded"]["from"], "2023-12-31T18:00:07-06:00");
+    assert_eq!(clock["gaps"]["longest"][0]["from"], "2023-12-31T18:00:13-06:00");
+    assert_near(&facts["recorded"]["duration_s"], 26.0, 1e-9);
+    // Mount offset of the study, not of the profile: 52 degrees; the last shot looks up.
+    assert_near(&facts["mount_pitch_deg"], 10.0, 1e-9);
+    let pitch = &facts["acceleration"]["pitch_deg"];
+    assert_eq!((&pitch["counts"][10], &pitch["below"], &pitch["above"]), (&14.into(), &7.into(), &0.into()));
+    let range = &facts["range"];
+    assert_eq!((&range["range_mm"]["counts"][5], &range["no_target_samples"]), (&385.into(), &385.into()));
+    assert_eq!(range["range_mm"]["above"], 385);
+    assert_eq!((&facts["images"]["count"], &facts["images"]["median_period_s"]), (&2.into(), &10.0.into()));
+    assert_eq!(facts["images"]["dropped"], serde_json::json!([{"reason": "empty_image", "count": 1, "bytes": 0}]));
+    assert_eq!(facts["local_time_changes"], serde_json::json!([]));
+    let text = stdout(&inspect(study.path(), &[]));
+    assert!(text.contains("2 gaps longer than") && text.contains("no target   385 samples"), "{text}");
+}
+
+#[test]
+fn a_file_of_ingest_is_read_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let mcap = folder.path().join("x.mcap");
+    let card = published_bench().join("cards/bench-35cm-55deg");
+    let devices = published_bench().join("devices");
+    let camera = ["--camera", "bench-camera", "--devices", devices.to_str().unwrap(), "--time-zone", "America/Chicago"];
+    let arguments = [&["ingest", card.to_str().unwrap(), "-o", mcap.to_str().unwrap()][..], &camera].concat();
+    assert_exit(&run(arguments), 0);
+    let output = inspect(&mcap, &["--json"]);
+    assert_exit(&output, 0);
+    let (file, study) =
+        (facts(&output, None), facts(&inspect(&published_bench(), &["--json"]), Some("bench-35cm-55deg")));
+    assert_eq!((&file["file"]["is_survey"], &study["file"]["is_survey"]), (&false.into(), &true.into()));
+    for key in ["acceleration", "range", "extra", "images", "recorded", "problems"] {
+        assert_eq!(file[key], study[key], "{key}");
+    }
+    // Cut short: a damaged file, not another thing.
+    let bytes = std::fs::read(&mcap).unwrap();
+    std::fs::write(&mcap, &bytes[..bytes.len() / 2]).unwrap();
+    let output = inspect(&mcap, &[]);
+    assert_exit(&output, 1);
+    assert!(stderr(&output).contains("ends early") && stdout(&output).is_empty(), "{}", stderr(&output));
+}
+
+#[test]
+fn what_is_no_recording_is_refused_with_what_was_expected() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("x.mcap");
+    let refused = |path: &Path, code: i32, fact: &str| {
+        let output = inspect(path, &[]);
+        assert_exit(&output, code);
+        assert!(stderr(&output).contains(fact) && stdout(&output).is_empty(), "{}", stderr(&output));
+    };
+    refused(&file, 2, "cannot open");
+    std::fs::write(&file, "no MCAP file").unwrap();
+    refused(&file, 2, "expected an MCAP file or the folder of a study, got neither");
+    refused(folder.path(), 2, "there is no study.toml in it");
+    std::fs::write(&file, other_mcap()).unwrap();
+    refused(&file, 1, "an MCAP file, but not a file of this program");
+    assert!(!stderr(&inspect(&file, &[])).contains("delete"));
+}
+
+/// The smallest MCAP file: header, data end, footer, with a summary that has nothing in it.
+fn other_mcap() -> Vec<u8> {
+    let magic = b"\x89MCAP0\r\n";
+    let record = |opcode: u8, body: &[u8]| [&[opcode], &(body.len() as u64).to_le_bytes()[..], body].concat();
+    let header = record(0x01, &[0; 8]);
+    let data_end = record(0x0f, &[0; 4]);
+    let summary_start = (magic.len() + header.len() + data_end.len()) as u64;
+    let footer = record(0x02, &[&summary_start.to_le_bytes()[..], &[0; 8], &[0; 4]].concat());
+    [&magic[..], &header, &data_end, &footer, magic].concat()
+}
+
+#[test]
+fn a_session_that_cannot_be_used_is_told_and_the_others_shown() {
+    let study = StudyFolder::new("", OBJECTS, &small_camera());
+    study.session("good", &[shot(55.0, 500.0)]);
+    std::fs::create_dir_all(study.path().join("cards/empty")).unwrap();
+    let output = inspect(study.path(), &[]);
+    assert_exit(&output, 3);
+    let text = stdout(&output);
+    assert!(text.contains("empty\n  nothing can be used [ingest] card_does_not_fit_profile"), "{text}");
+    assert!(text.contains("\ngood\n  profile       csv 1\n"), "{text}");
+    std::fs::remove_dir_all(study.path().join("cards/good")).unwrap();
+    assert_exit(&inspect(study.path(), &["--json"]), 1);
+}
+
+/// A card of one file from a real logger, through the built-in profile.
+fn real_facts(set: &str, file: &str, profile: &str) -> Option<Value> {
+    let log = real_data(set)?.join(file);
+    let folder = tempfile::tempdir().unwrap();
+    let (card, mcap) = (folder.path().join("card"), folder.path().join("x.mcap"));
+    std::fs::create_dir(&card).unwrap();
+    std::fs::copy(log, card.join(file)).unwrap();
+    let (card, mcap_text) = (card.to_str().unwrap(), mcap.to_str().unwrap());
+    let output = run(["ingest", card, "-o", mcap_text, "--profile", profile]);
+    assert_exit(&output, 3); // there is no range sensor, and no camera
+    let output = inspect(&mcap, &["--json"]);
+    assert_exit(&output, 0);
+    println!("{}", stdout(&inspect(&mcap, &[])));
+    Some(facts(&output, None))
+}
+
+#[test]
+fn real_glasses() {
+    let Some(facts) = real_facts("imu_neon_glasses", "demo_recording_ps1.csv", "pupil-neon") else { return };
+    let clock = &facts["acceleration"]["clock"];
+    assert_eq!(clock["samples"], 969);
+    assert_near(&clock["measured_rate_hz"], 104.0, 0.5);
+    assert_near(&clock["longest_step_s"], 0.018_68, 0.000_005);
+    assert_eq!(facts["extra"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn a_real_logger() {
+    let Some(facts) = real_facts("imu_axivity_adxl345", "ax3_testfile.cwa", "axivity-cwa") else { return };
+    let clock = &facts["acceleration"]["clock"];
+    assert_eq!(clock["samples"], 17_400);
+    assert_near(&clock["measured_rate_hz"], 98.86, 0.005);
+}
