@@ -131,7 +131,9 @@ impl<R: Read> CsvSamples<R> {
 
     fn find_columns(&mut self) -> Result<Columns, Fault> {
         for _ in 0..self.layout.format.skip_lines {
-            self.rows.skip_line()?;
+            if !self.rows.skip_line()? {
+                break;
+            }
         }
         let layout = &self.layout;
         if !layout.format.header {

@@ -76,10 +76,12 @@ fn gyroscope(block: &Block, name: &str) -> Vec<f32> {
 
 fn faults(facts: &CwaFacts) -> Vec<Fault> {
     let mut faults = Vec::new();
+    // The block that the file ends in is told by itself.
+    let cut_bytes = facts.truncated.map_or(0, |cut| cut.got as u64);
     if let Some(first) = facts.bad_blocks.iter().min_by_key(|bad| bad.first_offset) {
         faults.push(Fault::BadBlocks {
             blocks: facts.bad_blocks.iter().map(|bad| bad.blocks).sum(),
-            bytes: facts.bytes_lost,
+            bytes: facts.bytes_lost.saturating_sub(cut_bytes),
             first_offset: first.first_offset,
             first: first.first.to_string(),
         });

@@ -79,8 +79,12 @@ impl Line {
             self.recent.pop_front();
         }
         let begin = block.times.first();
-        if self.newest().is_none_or(|newest| begin >= newest) {
+        let goes_on = |line: &Self| line.newest().is_none_or(|newest| begin >= newest);
+        if goes_on(self) {
             self.settle_as_late();
+        }
+        // Where the clock turns out to have been set back, another block is the newest now.
+        if goes_on(self) {
             self.held.push_back(block);
             self.release(HELD);
             return;
@@ -105,7 +109,10 @@ impl Line {
         if self.back.is_empty() {
             return;
         }
-        if !self.back.iter().all(|block| self.fits(block)) {
+        let mut back: Vec<&Block> = self.back.iter().collect();
+        back.sort_by_key(|block| block.times.first());
+        let overlap = |pair: &[&Block]| pair[1].times.first() <= pair[0].times.last();
+        if back.windows(2).any(overlap) || !back.iter().all(|block| self.fits(block)) {
             self.settle_as_set_back();
             return;
         }

@@ -10,6 +10,8 @@ use crate::profile::Step;
 
 /// A packet is taken to reach as far as the next one's stamp where that is nearer by no more than this.
 const RATE_TOLERANCE: f64 = 0.05;
+/// No packet's true step is longer than this many nominal ones.
+const LONGEST_STEP: f64 = 1.25;
 
 /// Gives samples their times. It holds back one packet, since the stamp of the next one tells its step.
 #[derive(Debug)]
@@ -49,6 +51,8 @@ impl Stepper {
                     samples: *samples as usize,
                     nominal_rate_hz: 1e9 / step_ns,
                 };
+                let reach = stamp.samples as f64 + f64::from(stamp.index).abs();
+                is_far_from_ends(UtcNs(stamp.time_ns), reach, step_ns)?;
                 Ok(self.packet(stamp, raw))
             }
             Stamps::Each(stamps) => {
@@ -57,6 +61,7 @@ impl Stepper {
             }
             Stamps::Counted { first, samples, present } => {
                 let anchor = self.clock.anchor.ok_or(ClockError::NoAnchor)?;
+                is_far_from_ends(anchor, *first as f64 + f64::from(*samples), step_ns)?;
                 let start = after(anchor, step_ns, usize::try_from(*first).map_err(|_| ClockError::Range)?);
                 let times = times_of(start, step_ns, *samples as usize, present.as_deref());
                 Ok(Some(block(raw, times)))
@@ -80,6 +85,15 @@ impl Stepper {
         let times = stamped.unwrap_or_else(|| nominal(&stamp, Some(&next)));
         Some(timed(&times, &stamp, before))
     }
+}
+
+/// Whether so many steps to either side of a time, of a rate that is somewhat off the nominal one, are times as well.
+#[expect(clippy::cast_precision_loss, reason = "the ends are 292 years apart")]
+fn is_far_from_ends(time: UtcNs, steps: f64, step_ns: f64) -> Result<(), ClockError> {
+    let reach_ns = LONGEST_STEP * steps * step_ns;
+    let time_ns = time.0 as f64;
+    let fits = time_ns - reach_ns >= 0.0 && time_ns + reach_ns < i64::MAX as f64;
+    if fits { Ok(()) } else { Err(ClockError::Range) }
 }
 
 /// The times of a packet by the nominal rate; where it would reach into the next packet, by that one's stamp.
