@@ -28,6 +28,10 @@ lint:
 fmt:
     cargo fmt --all
 
+# Speed against cp, numpy and pandas, and peak memory (docs/performance.md); AIM_BATCH_PYTHON names a Python that has them
+bench-speed *parts:
+    cargo bench -p aim-batch-pipeline -- {{parts}}
+
 # Looks for defects in a parser: packets, csv, cwa, labelme, config_toml, image, mcap, timeline (cargo install cargo-fuzz)
 fuzz target seconds="600":
     mkdir -p fuzz/found/{{target}}
