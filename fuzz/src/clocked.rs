@@ -8,7 +8,7 @@ use ingest::timeline::{Block, Clock, LISTED, Line, Span, Stepper, StreamFacts, T
 use jiff::tz::TimeZone;
 use model::UtcNs;
 
-/// Blocks that a time line may hold back.
+/// Blocks that a time line may hold back, as large as the largest one.
 const MOST_HELD: usize = 32;
 /// Zones with quarters of hours, summer time of half an hour, skipped days, and none of that.
 const ZONES: [&str; 6] =
@@ -40,9 +40,7 @@ pub(crate) struct Clocked {
     taken: usize,
     timed: Tally,
     out: Tally,
-    /// Pieces in order of time that went into the line, and came out of it.
-    pieces: (usize, usize),
-    largest_piece: usize,
+    largest: usize,
     last: Option<UtcNs>,
     went_back: u64,
     span: Option<Span>,
@@ -74,8 +72,7 @@ impl Clocked {
             taken: 0,
             timed: Tally::default(),
             out: Tally::default(),
-            pieces: (0, 0),
-            largest_piece: 0,
+            largest: 0,
             last: None,
             went_back: 0,
             span: None,
@@ -93,7 +90,8 @@ impl Clocked {
         let samples = raw.len();
         match self.stepper.push(raw) {
             Ok(block) => {
-                self.taken += samples;
+                let refused = self.stepper.take_refused().map_or(0, |(refused, _)| refused);
+                self.taken += samples - usize::try_from(refused).expect("counts fit");
                 block.into_iter().for_each(|block| self.pass_on(block));
             }
             Err(error) => assert!(!error.to_string().is_empty()),
@@ -107,12 +105,13 @@ impl Clocked {
         assert_eq!(self.taken, self.timed.samples, "the stepper gives times to all samples that it took");
         self.line.end();
         self.drain();
-        let Self { line, timed, out, largest_piece, went_back, span, .. } = self;
+        let Self { line, timed, out, largest, went_back, span, .. } = self;
         let facts = line.finish();
         let twice = usize::try_from(facts.duplicates).expect("counts fit");
-        let lost = timed.samples - out.samples;
-        assert!((twice..=twice * largest_piece).contains(&lost), "{lost} samples gone for {twice} duplicates");
-        assert!(twice > 0 || timed == out, "samples out are those that went in: {timed:?}, {out:?}");
+        let misplaced = usize::try_from(facts.misplaced_samples).expect("counts fit");
+        let lost = timed.samples - out.samples - misplaced;
+        assert!((twice..=twice * largest).contains(&lost), "{lost} samples gone for {twice} duplicates");
+        assert!(twice > 0 || misplaced > 0 || timed == out, "samples out are those that went in: {timed:?}, {out:?}");
         check_facts(&facts, out.samples, went_back, span);
         out.samples
     }
@@ -120,17 +119,14 @@ impl Clocked {
     fn pass_on(&mut self, block: Block) {
         check_block(&block);
         self.timed.add(&block);
-        let breaks = match &block.times {
-            Times::Even { .. } => 0,
-            Times::Each(times) => times.windows(2).filter(|pair| pair[1] < pair[0]).count(),
-        };
-        self.pieces.0 += if block.times.len() == 0 { 0 } else { 1 + breaks };
-        self.largest_piece = self.largest_piece.max(block.times.len());
+        self.largest = self.largest.max(block.times.len());
         self.line.push(block);
         self.drain();
-        let twice = usize::try_from(self.line.facts_mut().duplicates).expect("counts fit");
-        let held = self.pieces.0 - self.pieces.1 - twice;
-        assert!(held <= MOST_HELD, "{held} blocks held back");
+        let facts = self.line.facts_mut();
+        let twice = usize::try_from(facts.duplicates).expect("counts fit") * self.largest;
+        let misplaced = usize::try_from(facts.misplaced_samples).expect("counts fit");
+        let held = self.timed.samples - self.out.samples - misplaced;
+        assert!(held <= twice + MOST_HELD * self.largest, "{held} samples held back");
     }
 
     fn drain(&mut self) {
@@ -145,7 +141,6 @@ impl Clocked {
             let before = self.span.unwrap_or(Span { from, to });
             self.span = Some(Span { from: before.from.min(from), to: before.to.max(to) });
             self.out.add(&block);
-            self.pieces.1 += 1;
         }
     }
 }

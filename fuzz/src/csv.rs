@@ -30,7 +30,12 @@ pub fn csv(input: &[u8]) -> usize {
     let flag = |bit: u8| flags & (1 << bit) != 0;
     let epoch = [Epoch::Unix, Epoch::Boot, Epoch::Local, Epoch::LocalAtStart][usize::from(epoch_code) % 4];
     let (time, epoch) = row_time(time_code, flag(0), epoch);
-    let layout = layout(flag(0), flag(1), time, CsvFormat { delimiter, skip_lines, header: flag(0) });
+    let layout = layout(
+        flag(0),
+        flag(1),
+        time,
+        CsvFormat { delimiter, skip_lines, header: flag(0), decimal_comma: delimiter == ';' },
+    );
     let rate_hz = 1.0 + f64::from(rate_code);
     let mut clocked = Clocked::new(Setting {
         epoch,

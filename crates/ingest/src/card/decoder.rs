@@ -115,6 +115,11 @@ impl Layout {
         self.wrap_ns.is_some()
     }
 
+    /// Whether there are no stamps: times come from a declared rate or duration.
+    pub fn is_counted(&self) -> bool {
+        matches!(&self.files, FileLayout::Csv(csv) if csv.time.column.is_none())
+    }
+
     /// Whether rows are spread evenly over a declared time, so that they must be counted first: over how many seconds.
     pub fn rows_over_s(&self) -> Option<f64> {
         match &self.files {

@@ -4,7 +4,7 @@ use std::io::Read;
 
 use jiff::tz::TimeZone;
 
-use super::cwa::{Block, CwaBlocks, CwaFacts};
+use super::cwa::{BLOCK_BYTES, Block, CwaBlocks, CwaFacts, HEADER_BYTES};
 use super::raw::{RawBlock, Stamps};
 use super::{Converter, Fault};
 
@@ -86,6 +86,11 @@ fn faults(facts: &CwaFacts) -> Vec<Fault> {
             first: first.first.to_string(),
         });
     }
+    let told = !facts.bad_blocks.is_empty() || facts.truncated.is_some();
+    if facts.bytes_lost > 0 && !told {
+        let first_offset = (HEADER_BYTES as u64) + facts.blocks * BLOCK_BYTES as u64;
+        faults.push(Fault::LostAlignment { bytes: facts.bytes_lost, places: 1, first_offset });
+    }
     if let Some(jump) = facts.first_jumps.first() {
         faults.push(Fault::SequenceJumps {
             jumps: facts.sequence_jumps,
@@ -95,7 +100,7 @@ fn faults(facts: &CwaFacts) -> Vec<Fault> {
         });
     }
     if let Some(cut) = facts.truncated {
-        let expected = super::cwa::BLOCK_BYTES;
+        let expected = BLOCK_BYTES;
         faults.push(Fault::TruncatedPacket { offset: cut.offset, expected, got: cut.got, samples: 0 });
     }
     if let Some(failure) = &facts.unreadable {

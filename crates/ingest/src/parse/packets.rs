@@ -1,7 +1,7 @@
 //! One binary packet: a header with a stamp, then the samples of all channels.
 
 use super::raw::{RawBlock, Stamps};
-use super::scalar::{read_column, read_one, read_whole};
+use super::scalar::{read_column, read_float, read_one, read_whole};
 use super::{Converter, decimal};
 use crate::profile::{Endian, PacketLayout, SampleOrder, Scalar, StampAt};
 
@@ -139,12 +139,20 @@ impl PacketParser {
     /// [`PacketError::Stamp`] when it is no time.
     pub fn stamp_ns(&self, packet: &[u8]) -> Result<i64, PacketError> {
         let layout = (self.stamp.scalar, self.endian);
+        let text = || PacketError::Stamp(read_one(packet, layout, self.stamp.offset).to_string());
+        self.known_stamp_ns(packet).ok_or_else(text)
+    }
+
+    /// The same, for those who try many places.
+    pub(super) fn known_stamp_ns(&self, packet: &[u8]) -> Option<i64> {
         let ns = match self.whole(packet, self.stamp) {
             Some(units) => units.checked_mul(self.unit_ns),
-            None => decimal::ns_of(read_one(packet, layout, self.stamp.offset), self.unit_ns),
+            None => {
+                let units = read_float(packet, (self.stamp.scalar, self.endian), self.stamp.offset);
+                decimal::ns_of(units, self.unit_ns)
+            }
         };
         ns.filter(|ns| *ns >= 0)
-            .ok_or_else(|| PacketError::Stamp(read_one(packet, layout, self.stamp.offset).to_string()))
     }
 
     fn whole(&self, packet: &[u8], field: Field) -> Option<i64> {

@@ -56,8 +56,8 @@ impl Account {
             Some((last, sequence)) => self.between(last, sequence, block),
             None => self.begin_stretch(begin),
         }
-        self.steps_within(&block.times);
         self.cover(block, end);
+        self.steps_within(&block.times);
         self.last = Some((end, block.sequence));
     }
 
@@ -78,8 +78,16 @@ impl Account {
             first.from = begin;
             self.step(before);
         }
+        self.cover_span(begin, end);
         self.steps_within(&block.times);
         self.facts.samples += block.times.len() as u64;
+    }
+
+    /// A block whose time fits nothing around it.
+    pub fn leave_out(&mut self, block: &Block) {
+        self.facts.misplaced += 1;
+        self.facts.misplaced_samples += block.times.len() as u64;
+        self.facts.first_misplaced.get_or_insert(block.times.first());
     }
 
     pub fn finish(mut self) -> StreamFacts {
@@ -109,6 +117,23 @@ impl Account {
         }
     }
 
+    /// Samples from there to there, of the current stretch.
+    fn cover_span(&mut self, from: UtcNs, to: UtcNs) {
+        let (stretch, gap_s) = (self.facts.jumps, self.facts.gap_s);
+        let is_full = self.facts.covered.len() >= LISTED;
+        match self.facts.covered.last_mut() {
+            Some((of, last)) if (*of == stretch && from.seconds_since(last.to) <= gap_s && from >= last.from) => {
+                last.to = last.to.max(to);
+            }
+            // Beyond the list's end the last span grows, so that nothing that exists twice passes for unique.
+            Some((_, last)) if is_full => {
+                last.from = last.from.min(from);
+                last.to = last.to.max(to);
+            }
+            _ => self.facts.covered.push((stretch, Span { from, to })),
+        }
+    }
+
     /// Stretches beyond the list's end grow its last one, so that nothing that exists twice passes for unique.
     fn begin_stretch(&mut self, begin: UtcNs) {
         self.first_gap = self.facts.listed_gaps.len();
@@ -121,6 +146,7 @@ impl Account {
 
     fn cover(&mut self, block: &Block, end: UtcNs) {
         self.facts.samples += block.times.len() as u64;
+        self.cover_span(block.times.first(), end);
         if let Some(stretch) = self.facts.stretches.last_mut() {
             stretch.to = stretch.to.max(end);
         }
