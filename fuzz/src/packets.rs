@@ -57,7 +57,7 @@ pub fn packets(input: &[u8]) -> usize {
         rate_hz,
         gap_s: 0.5,
     });
-    let mut packets = PacketSamples::new(Pieces::new(file, fineness), parser, epoch != Epoch::Boot);
+    let mut packets = PacketSamples::new(Pieces::new(file, fineness), parser);
     let mut used = 0;
     while let Some(block) = packets.next_block() {
         used += 1;

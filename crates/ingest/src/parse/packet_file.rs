@@ -13,16 +13,15 @@ const LATEST_NS: i64 = 4_102_444_800 * 1_000_000_000;
 /// A stamp follows another where it is no more than a day later.
 const FOLLOWS_WITHIN_NS: i64 = 86_400 * 1_000_000_000;
 /// Where packets are looked for, a stamp follows the last one where it is no more than so many steps later, and the one
-/// after it by one step and a half at most: chance hardly gives two such stamps.
-const SEARCH_STEPS: i64 = 50;
+/// after it by one step, give or take this part: chance hardly gives two such stamps.
+const SEARCH_STEPS: i64 = 8;
+const STEP_PART: i64 = 8;
 
 /// Streams the packets of a file. A packet counts only when what follows it looks like a packet too, or the file ends:
 /// where bytes are lost inside one, it is left out and the search goes on for the next.
 pub struct PacketSamples<R> {
     reader: R,
     parser: PacketParser,
-    /// Whether stamps count from 1970, so that it can be told which are times.
-    is_absolute: bool,
     bytes: Vec<u8>,
     /// Where in `bytes` the next packet begins.
     next: usize,
@@ -50,12 +49,11 @@ struct Damage {
 }
 
 impl<R: Read> PacketSamples<R> {
-    /// The packets in `reader`. `is_absolute`: stamps count from 1970.
-    pub fn new(reader: R, parser: PacketParser, is_absolute: bool) -> Self {
+    /// The packets in `reader`.
+    pub fn new(reader: R, parser: PacketParser) -> Self {
         Self {
             reader,
             parser,
-            is_absolute,
             bytes: Vec::new(),
             next: 0,
             offset: 0,
@@ -88,7 +86,8 @@ impl<R: Read> PacketSamples<R> {
                 Ok(ns) if !self.fits(ns) => self.pass_bad(format!("{} s fits nothing around it", ns / 1_000_000_000)),
                 Ok(ns) => {
                     let block = self.parser.parse(packet).ok();
-                    self.step_ns = self.last_ns.map(|last| ns - last).filter(|step| *step > 0).or(self.step_ns);
+                    let step = self.last_ns.map(|last| self.parser.later_ns(ns, last)).filter(|step| *step > 0);
+                    self.step_ns = step.or(self.step_ns);
                     self.last_ns = Some(ns);
                     self.barren_until.set(0);
                     self.next += size;
@@ -122,37 +121,40 @@ impl<R: Read> PacketSamples<R> {
     /// The stamp, if it is a time; what it is otherwise.
     fn is_time(&self, packet: &[u8]) -> Result<i64, String> {
         let ns = self.parser.stamp_ns(packet).map_err(|error| error.to_string())?;
-        if self.is_absolute && !(EARLIEST_NS..LATEST_NS).contains(&ns) {
+        if self.parser.is_absolute() && !(EARLIEST_NS..LATEST_NS).contains(&ns) {
             return Err(format!("{} s since 1970 is not between the years 1970 and 2100", ns / 1_000_000_000));
         }
         Ok(ns)
     }
 
-    /// The stamp of the packet that follows the next one, if there is a whole header.
-    fn following_ns(&self) -> Option<i64> {
-        let following = self.bytes.get(self.next + self.parser.packet_bytes()..)?;
-        if following.len() < self.parser.header_bytes() || following.is_empty() {
-            return None;
-        }
-        Some(self.is_time(following).unwrap_or(-1))
+    /// The time that the stamp of a packet at that place would be.
+    fn stamp_at(&self, at: usize) -> Option<i64> {
+        let ns = self.bytes.get(at..).and_then(|rest| self.parser.known_stamp_ns(rest))?;
+        (!self.parser.is_absolute() || (EARLIEST_NS..LATEST_NS).contains(&ns)).then_some(ns)
+    }
+
+    /// Where the packet after the next one begins.
+    fn following(&self) -> usize {
+        self.next + self.parser.packet_bytes()
     }
 
     /// Whether a stamp follows the last one, or the next one follows it: one alone is damaged.
     fn fits(&self, ns: i64) -> bool {
-        let follows = |last: i64, ns: i64| (0..=FOLLOWS_WITHIN_NS).contains(&(ns - last));
+        let follows = |last: i64, ns: i64| (0..=FOLLOWS_WITHIN_NS).contains(&self.parser.later_ns(ns, last));
         let before = self.last_ns.is_none_or(|last| follows(last, ns));
-        before || self.following_ns().is_some_and(|next| follows(ns, next))
+        before || self.stamp_at(self.following()).is_some_and(|next| follows(ns, next))
     }
 
     /// Whether what follows the next packet is no packet, but one begins inside it, or between the two: bytes were lost.
     fn is_cut_inside(&self, ns: i64) -> bool {
         let size = self.parser.packet_bytes();
-        let Some(next_ns) = self.following_ns() else { return false };
-        if (0..=self.search_reach_ns()).contains(&(next_ns - ns)) {
+        let following = self.bytes.get(self.following()..).unwrap_or_default();
+        let follows = |next_ns| (0..=self.search_reach_ns()).contains(&self.parser.later_ns(next_ns, ns));
+        let is_end = following.len() < self.parser.header_bytes().max(1);
+        if is_end || following.iter().take(size).all(|byte| *byte == 0) {
             return false;
         }
-        let following = &self.bytes[self.next + size..];
-        if following.iter().take(size).all(|byte| *byte == 0) {
+        if self.stamp_at(self.following()).is_some_and(follows) {
             return false;
         }
         self.find_packet(self.next + 1, Some(ns)).is_some_and(|found| found % size != self.next % size)
@@ -166,17 +168,17 @@ impl<R: Read> PacketSamples<R> {
     /// Where in `bytes` a packet begins, at `from` or later: its stamp and the next one's follow on the last one believed.
     fn find_packet(&self, from: usize, last_ns: Option<i64>) -> Option<usize> {
         let size = self.parser.packet_bytes();
-        let step_reach_ns = self.step_ns.map_or(FOLLOWS_WITHIN_NS, |step| step.saturating_add(step / 2));
-        let stamp = |at: usize| {
-            let ns = self.bytes.get(at..).and_then(|rest| self.parser.known_stamp_ns(rest))?;
-            (!self.is_absolute || (EARLIEST_NS..LATEST_NS).contains(&ns)).then_some(ns)
-        };
+        let steps_ns = self.step_ns.map_or(1..=FOLLOWS_WITHIN_NS, |step| {
+            let part = step / STEP_PART;
+            step - part..=step.saturating_add(part)
+        });
         let is_packet = |at: usize| {
-            let follows_last =
-                |ns: &i64| last_ns.is_none_or(|last| (0..=self.search_reach_ns()).contains(&(ns - last)));
-            let Some(ns) = stamp(at).filter(follows_last) else { return false };
-            let next = stamp(at + size);
-            next.is_some_and(|next| (1..=step_reach_ns).contains(&(next - ns))) || at + size == self.bytes.len()
+            let follows_last = |ns: &i64| {
+                last_ns.is_none_or(|last| (0..=self.search_reach_ns()).contains(&self.parser.later_ns(*ns, last)))
+            };
+            let Some(ns) = self.stamp_at(at).filter(follows_last) else { return false };
+            let next = self.stamp_at(at + size);
+            next.is_some_and(|next| steps_ns.contains(&self.parser.later_ns(next, ns))) || at + size == self.bytes.len()
         };
         let barren = usize::try_from(self.barren_until.get().saturating_sub(self.offset)).unwrap_or(usize::MAX);
         let end = (self.bytes.len() + 1).saturating_sub(if self.at_end { size } else { 2 * size });
