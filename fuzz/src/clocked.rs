@@ -124,7 +124,7 @@ impl Clocked {
             Times::Even { .. } => 0,
             Times::Each(times) => times.windows(2).filter(|pair| pair[1] < pair[0]).count(),
         };
-        self.pieces.0 += if block.times.len() == 0 { 0 } else { 1 + breaks };
+        self.pieces.0 += if block.times.is_empty() { 0 } else { 1 + breaks };
         self.largest_piece = self.largest_piece.max(block.times.len());
         self.line.push(block);
         self.drain();

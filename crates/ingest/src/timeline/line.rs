@@ -163,7 +163,7 @@ impl Line {
 
 /// The block in pieces whose times never go back.
 fn in_order(block: Block) -> Vec<Block> {
-    let Times::Each(times) = &block.times else { return if block.times.len() == 0 { vec![] } else { vec![block] } };
+    let Times::Each(times) = &block.times else { return if block.times.is_empty() { vec![] } else { vec![block] } };
     if times.is_sorted() {
         return if times.is_empty() { vec![] } else { vec![block] };
     }
