@@ -89,6 +89,7 @@ impl Index {
         let mut names: Vec<String> =
             self.topics.values().filter_map(|topic| topic.strip_prefix(prefix)).map(str::to_owned).collect();
         names.sort();
+        names.dedup(); // channels may share a topic
         names
     }
 
