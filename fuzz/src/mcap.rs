@@ -61,9 +61,18 @@ fn read_all(session: &mut SessionReader, file_bytes: usize) -> Result<usize, Rea
     session.for_each_range(|time, _| order.next(time))?;
     let range = order.samples;
     assert!(12 * acceleration + 4 * range <= file_bytes, "{acceleration} and {range} samples in {file_bytes} bytes");
+    let extra = session.extra_channels();
+    assert!(extra.is_sorted_by(|a, b| a < b), "each channel once: {extra:?}");
+    let mut carried = 0;
+    for name in &extra {
+        let mut order = Order::default();
+        session.for_each_extra(name, |time, _| order.next(time))?;
+        carried += order.samples;
+    }
+    assert!(12 * acceleration + 4 * (range + carried) <= file_bytes, "{carried} samples carried in {file_bytes} bytes");
     let images = session.images()?;
     assert!(images.is_sorted_by_key(|entry| (entry.time, entry.file.clone())), "images are in order of time");
-    let mut read = acceleration + range;
+    let mut read = acceleration + range + carried;
     for entry in &images {
         let bytes = session.image_bytes(&entry.file)?;
         assert!(bytes.len() <= file_bytes && entry.time.0 >= 0, "{entry:?}");

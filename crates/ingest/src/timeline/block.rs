@@ -15,7 +15,7 @@ pub struct Block {
     pub extra: Vec<Vec<f32>>,
 }
 
-/// Times of the samples of a block; never empty.
+/// Times of the samples of a block.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Times {
     /// The first one, and so many ns from each to the next.

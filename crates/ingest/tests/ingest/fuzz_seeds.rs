@@ -188,7 +188,7 @@ fn labelme() -> Seeds {
     vec![
         named("line.json", file(std::slice::from_ref(&line))),
         named("all.json", file(&[line.clone(), height, rim, base])),
-        named("refused.json", file(&[&refused[..], &[line.clone()]].concat())),
+        named("refused.json", file(&[&refused[..], std::slice::from_ref(&line)].concat())),
         named("mark.json", format!("\u{feff}{{\"shapes\": [{line}]}}")),
     ]
 }
@@ -206,7 +206,8 @@ fn mcap() -> Seeds {
     let packet = |at: f64, from, n| (NOON_S as f64 + at).to_le_bytes().into_iter().chain(values(from, n)).collect();
     let acceleration = |at: f64| -> Vec<u8> { packet(at, 0, 32) };
     let range = |at: f64| -> Vec<u8> { packet(at, 400, 8) };
-    let (even, set_back) = ([0.0, 0.0625, 0.125], [100.0, 100.0625, 0.0, 0.0625]);
+    let even = [0.0, 0.0625, 0.125];
+    let set_back: Vec<f64> = [100.0, 100.0625].into_iter().chain((0..12).map(|i| 0.0625 * f64::from(i))).collect();
     let file = |packet: &dyn Fn(f64) -> Vec<u8>, at: &[f64]| at.iter().flat_map(|at| packet(*at)).collect::<Vec<u8>>();
     vec![
         named("sensors.mcap", session("aim2-packets", &[("SENSORS/ACC.BIN", file(&acceleration, &even))])),
