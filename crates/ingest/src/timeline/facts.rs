@@ -98,7 +98,7 @@ pub struct StreamFacts {
     pub stretches: Vec<Span>,
     /// Where samples were, by stretch: a stretch without its gaps. At most [`LISTED`]; kept while ingest runs.
     #[serde(skip)]
-    pub(super) covered: Vec<(u64, Span)>,
+    pub covered: Vec<(u64, Span)>,
     /// Whether the times come from a declared rate or duration, and not from stamps.
     #[serde(default)]
     pub times_declared: bool,

@@ -34,6 +34,8 @@ pub struct ClockFacts {
     pub duplicate_blocks: u64,
     /// Packets, or batches of rows, that came after later ones, and were put in order.
     pub reordered_blocks: u64,
+    /// Packets, or rows, that are left out because their times fit nothing around them.
+    pub misplaced_blocks: u64,
     /// Where the clock was set while recording went on.
     pub clock_jumps: Jumps,
     /// Pieces of one time line each: one more than clock jumps.
@@ -106,6 +108,7 @@ impl ClockFacts {
             gaps: gaps(facts, zone),
             duplicate_blocks: facts.duplicates,
             reordered_blocks: facts.reordered,
+            misplaced_blocks: facts.misplaced,
             clock_jumps: Jumps { count: facts.jumps, first: facts.clock_jumps.iter().take(LISTED).map(jump).collect() },
             stretches: Stretches { count: facts.stretches.len(), first: first(&facts.stretches, zone) },
         }

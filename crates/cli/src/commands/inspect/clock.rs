@@ -17,7 +17,10 @@ pub fn push(text: &mut String, name: &str, clock: &ClockFacts) {
         line(text, 4, "steps", &format!("{:.2} to {:.2} ms", 1000.0 * shortest_s, 1000.0 * longest_s));
     }
     push_gaps(text, &clock.gaps);
-    let order = format!("{} there twice, {} put in order", clock.duplicate_blocks, clock.reordered_blocks);
+    let mut order = format!("{} there twice, {} put in order", clock.duplicate_blocks, clock.reordered_blocks);
+    if clock.misplaced_blocks > 0 {
+        order.push_str(&format!(", {} left out: times that fit nothing", clock.misplaced_blocks));
+    }
     line(text, 4, "packets", &order);
     let missing =
         format!("{} missing, {} lost", count(clock.missing_samples, "sample"), count(clock.lost_bytes, "byte"));
