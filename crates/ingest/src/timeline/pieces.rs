@@ -10,6 +10,9 @@ use super::block::{Block, Times};
 /// that was set, or a wrong stamp.
 const DISORDER_S: f64 = 1.0;
 
+/// Rows of a block that took some over from the one before: a second of a fast sensor, and no more, whatever the stamps.
+const MOST_JOINED: usize = 4096;
+
 /// A block cut where it must be.
 #[derive(Debug, Default)]
 pub(super) struct Pieces {
@@ -74,7 +77,8 @@ pub(super) fn mend_border(newest: &mut Block, block: &mut Block) -> bool {
     let (Some(last), Some(begin)) = (before.last(), times.first()) else { return false };
     let overlap_s = last.seconds_since(*begin);
     let keep = before.partition_point(|time| time <= begin);
-    if overlap_s <= 0.0 || overlap_s > DISORDER_S || keep == 0 {
+    let joined = before.len() - keep + times.len();
+    if overlap_s <= 0.0 || overlap_s > DISORDER_S || keep == 0 || joined > MOST_JOINED {
         return false;
     }
     let mut joined = part(newest, before, keep, before.len());
