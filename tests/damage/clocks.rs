@@ -33,6 +33,20 @@ fn set_forward_while_recording_is_no_gap_where_packets_are_numbered() {
     assert_eq!(told.reasons, [Selected, Selected, Selected, Selected, NoAcceleration]);
 }
 
+/// One damaged stamp must not make the rest of the session ambiguous.
+#[test]
+fn wrong_for_one_packet() {
+    for (seconds, code) in
+        [(86_400.0 * 3.0, "bad_stamp"), (3600.0, "misplaced_packets"), (-3600.0, "misplaced_packets")]
+    {
+        let study = DamagedStudy::new();
+        study.corrupt(ACC, |file| file.shift_clock(35, seconds).shift_clock(36, -seconds));
+        let told = study.run();
+        assert_eq!((told.exit, told.losses()), (3, vec![code]), "{seconds} s");
+        assert_eq!(told.reasons, [Selected; IMAGES], "{seconds} s");
+    }
+}
+
 #[test]
 fn never_set() {
     // Sensors count from 1970; the images' names say 2024.
