@@ -7,7 +7,7 @@ use jiff::tz::TimeZone;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use crate::card::{Card, CardFile, Inputs, Patterns, open_hashing};
+use crate::card::{Card, CardFile, Inputs, Patterns, open_hashing, too_large};
 use crate::ingest::{IngestError, SessionSource};
 use crate::mcap_file::Keep;
 use crate::mcap_file::metadata::toml_text;
@@ -16,7 +16,7 @@ use crate::progress::{IngestProgress, NoProgress};
 use crate::read::SessionReader;
 
 /// Version of what ingest writes. A change of layout or meaning gives another number, and all sessions are ingested anew.
-pub const INGEST_VERSION: u32 = 2;
+pub const INGEST_VERSION: u32 = 3;
 
 /// SHA-256 over the session's name, the profile, the camera, the time zone, [`INGEST_VERSION`], and name and SHA-256 of
 /// every file that the profile's patterns fit. Reads all of them.
@@ -33,7 +33,13 @@ pub(crate) fn inputs_key_with(source: &SessionSource, progress: &dyn IngestProgr
     let files = input_files(&card, &source.profile)?;
     progress.begin(files.iter().map(|file| file.bytes).sum());
     let mut inputs = Inputs::default();
+    let sensors = Patterns::new(&sensor_patterns(&source.profile)).map_err(IngestError::Pattern)?;
     for file in files {
+        if let Some(reason) = too_large(file).filter(|_| !sensors.fits(&file.name)) {
+            progress.advance(file.bytes);
+            inputs.add_refused(file, reason);
+            continue;
+        }
         match open_hashing(file, progress) {
             // An unreadable file is recorded as such, here as in ingest.
             Ok(reader) => drop(inputs.add(file, reader)),
@@ -90,10 +96,14 @@ pub(crate) fn zone_name(zone: &TimeZone) -> String {
 
 /// All patterns of a profile.
 pub(crate) fn all_patterns(profile: &Profile) -> Vec<String> {
+    let images = profile.images.iter().flat_map(|images| &images.files);
+    sensor_patterns(profile).iter().chain(images).cloned().collect()
+}
+
+fn sensor_patterns(profile: &Profile) -> Vec<String> {
     let acceleration = profile.acceleration.iter().flat_map(|stream| &stream.files);
     let range = profile.range.iter().flat_map(|stream| &stream.files);
-    let images = profile.images.iter().flat_map(|images| &images.files);
-    acceleration.chain(range).chain(images).cloned().collect()
+    acceleration.chain(range).cloned().collect()
 }
 
 /// The files that the profile's patterns fit, each once.

@@ -52,6 +52,7 @@ mod progress;
 mod read;
 mod sample;
 mod summary;
+mod thumbnail;
 pub mod timeline;
 
 pub use config::ConfigError;
@@ -62,3 +63,4 @@ pub use progress::{IngestProgress, NoProgress};
 pub use read::{ReadError, SessionMetadata, SessionReader};
 pub use sample::Sample;
 pub use summary::{Counts, DroppedImage, ImageEntry, IngestSummary};
+pub use thumbnail::{Thumbnail, ThumbnailError, thumbnail};

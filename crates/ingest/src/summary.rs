@@ -29,8 +29,8 @@ pub struct DroppedImage {
     pub width_px: Option<u32>,
     /// Height, where the header could be read.
     pub height_px: Option<u32>,
-    /// Why: [`FrameReason::EmptyImage`], [`FrameReason::NotAnImage`], [`FrameReason::WrongSize`] or
-    /// [`FrameReason::NoTime`].
+    /// Why: [`FrameReason::EmptyImage`], [`FrameReason::NotAnImage`], [`FrameReason::DamagedImage`],
+    /// [`FrameReason::WrongSize`], [`FrameReason::NoTime`] or [`FrameReason::TimesDisagree`].
     pub reason: FrameReason,
     /// The facts behind the reason: expected and got.
     pub detail: String,

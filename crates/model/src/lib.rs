@@ -55,7 +55,7 @@ pub use camera_spec::{CameraSpec, CameraSpecError, LensSpec};
 pub use circle::{Circle, CircleError, fit_circle};
 pub use container::{Kind, Method, Quantity, Shape};
 pub use flow::{Flow, FlowStep, ImageCounts, StudyFlow};
-pub use frame_log::FrameReason;
+pub use frame_log::{FrameFlag, FrameReason};
 pub use lens::{LensError, LensModel};
 pub use marks::{Feature, Mark, ObjectMarks};
 pub use measure::{Container, MeasureError, Measured, height_by_paper_mm, height_by_ray_mm, measure};

@@ -53,7 +53,7 @@ impl Layout {
         };
         if let Some(csv) = &stream.csv {
             let values = vec![csv.x.clone(), csv.y.clone(), csv.z.clone()];
-            return Ok(Self::csv(&csv.format, &csv.time, values, common));
+            return Ok(Self::csv(csv.format(), &csv.time, values, common));
         }
         if let Some(cwa) = &stream.cwa {
             let layout = CwaLayout { converter: common.converter.clone(), extra: common.extra.to_vec() };
@@ -70,7 +70,7 @@ impl Layout {
             converter: Converter::from(stream),
         };
         if let Some(csv) = &stream.csv {
-            return Ok(Self::csv(&csv.format, &csv.time, vec![csv.range.clone()], common));
+            return Ok(Self::csv(csv.format(), &csv.time, vec![csv.range.clone()], common));
         }
         Self::packets(stream.packets.as_ref(), common)
     }
@@ -82,7 +82,7 @@ impl Layout {
         Ok(Self::new(FileLayout::Packets(parser), layout.stamp.epoch, wrap_ns, layout.step, &common))
     }
 
-    fn csv(format: &CsvFormat, time: &RowTime, values: Vec<String>, common: Common<'_>) -> Self {
+    fn csv(format: CsvFormat, time: &RowTime, values: Vec<String>, common: Common<'_>) -> Self {
         let epoch = match &time.format {
             Some(format) if !names_zone(format) => Epoch::Local,
             Some(_) => Epoch::Unix,
@@ -90,7 +90,7 @@ impl Layout {
         };
         let wrap_ns = wrap_ns(time.wrap_bits, time.unit.unwrap_or_default());
         let layout = CsvLayout {
-            format: format.clone(),
+            format,
             time: time.clone(),
             values,
             extra: common.extra.to_vec(),

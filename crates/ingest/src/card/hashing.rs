@@ -25,6 +25,11 @@ impl Inputs {
         self.sha256.insert(file.name.clone(), UNREADABLE.to_owned());
     }
 
+    /// Records a file that is not read on purpose, with the reason in place of a hash.
+    pub fn add_refused(&mut self, file: &CardFile, reason: String) {
+        self.sha256.entry(file.name.clone()).or_insert(reason);
+    }
+
     /// Reads what is left of the file and records its hash.
     pub fn add(&mut self, file: &CardFile, mut reader: HashingReader<'_>) -> IoResult<()> {
         let end = reader.drain();

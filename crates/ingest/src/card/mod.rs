@@ -3,10 +3,12 @@
 mod decoder;
 mod hashing;
 mod image_file;
+mod names;
 mod patterns;
 mod place;
 mod sensor_files;
 mod stream;
+mod unread;
 mod walk;
 
 pub use patterns::{PatternError, Patterns};
@@ -14,7 +16,8 @@ pub use walk::{Card, CardFile};
 
 pub(crate) use decoder::Layout;
 pub(crate) use hashing::{Inputs, open_hashing};
-pub(crate) use image_file::{LARGEST_IMAGE_BYTES, TakenImage, read_image};
-pub(crate) use place::Place;
+pub(crate) use image_file::{LARGEST_IMAGE_BYTES, Remarks, TakenImage, read_image, too_large};
+pub(crate) use place::{Place, amount, size};
 pub(crate) use sensor_files::Anchoring;
 pub(crate) use stream::Stream;
+pub(crate) use unread::Declared;

@@ -36,3 +36,21 @@ impl Place {
         Problem { severity: Severity::Note, ..self.problem(code, file, fact, remedy) }
     }
 }
+
+/// How much: `3 images (2.1 MB)`, in decimal units.
+pub(crate) fn amount(count: usize, thing: &str, bytes: u64) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {thing}{plural} ({})", size(bytes))
+}
+
+/// Bytes in decimal units: `812 bytes`, `2.1 MB`.
+pub(crate) fn size(bytes: u64) -> String {
+    let exact = bytes as f64;
+    match bytes {
+        1 => "1 byte".to_owned(),
+        0..1_000 => format!("{bytes} bytes"),
+        1_000..1_000_000 => format!("{:.1} kB", exact / 1e3),
+        1_000_000..1_000_000_000 => format!("{:.1} MB", exact / 1e6),
+        _ => format!("{:.1} GB", exact / 1e9),
+    }
+}

@@ -5,12 +5,18 @@ use std::path::{Path, PathBuf};
 use model::Problem;
 use walkdir::{DirEntry, WalkDir};
 
+use super::names::{card_name, odd_names};
 use super::{Patterns, Place};
+
+/// Folders that operating systems lay beside the data: what is in them is deleted, or theirs.
+const SYSTEM_FOLDERS: [&str; 6] =
+    ["system volume information", "$recycle.bin", ".trashes", ".trash-1000", ".spotlight-v100", ".fseventsd"];
 
 /// A file of a card.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CardFile {
-    /// Path relative to the card, with `/`.
+    /// Path relative to the card, with `/`; unique. Bytes that are not UTF-8, and control characters, are written `\xff`,
+    /// a backslash in a name as `\\`.
     pub name: String,
     /// Where it is.
     pub path: PathBuf,
@@ -23,12 +29,14 @@ pub struct CardFile {
 pub struct Card {
     /// All files, whatever they are.
     pub files: Vec<CardFile>,
-    /// Links that leave the card, names that are not UTF-8, folders that cannot be read.
+    /// Names of what is neither a file nor a folder: sockets, pipes, devices. They are not opened.
+    pub special: Vec<String>,
+    /// Links that leave the card, odd names, folders that cannot be read.
     pub problems: Vec<Problem>,
 }
 
 impl Card {
-    /// Lists a card. Links are followed where they stay within the card.
+    /// Lists a card. Links are followed where they stay within the card; the system's own folders are left out.
     ///
     /// # Errors
     /// When the folder itself cannot be read.
@@ -36,32 +44,27 @@ impl Card {
         let root = card_dir.canonicalize()?;
         std::fs::read_dir(&root)?;
         let place = Place::of_card(card_dir);
-        let mut card = Self { files: Vec::new(), problems: Vec::new() };
-        let mut problems = Vec::new();
-        let stays = |entry: &DirEntry, problems: &mut Vec<Problem>| {
-            let leaves =
-                entry.path_is_symlink() && entry.path().canonicalize().is_ok_and(|target| !target.starts_with(&root));
+        let mut card = Self { files: Vec::new(), special: Vec::new(), problems: Vec::new() };
+        let mut links = Vec::new();
+        let stays = |entry: &DirEntry, links: &mut Vec<Problem>| {
+            let leaves = leaves_card(entry, &root);
             if leaves {
                 let fact = "a symbolic link that leaves the card; it is not followed";
-                let name = entry.path().strip_prefix(&root).unwrap_or(entry.path()).display().to_string();
-                problems.push(place.problem(
-                    "link_leaves_card",
-                    &name,
-                    fact,
-                    "copy the file itself onto the card's folder",
-                ));
+                let remedy = "copy the file itself onto the card's folder";
+                links.push(place.problem("link_leaves_card", &name_of(entry.path(), &root), fact, remedy));
             }
-            !leaves
+            !leaves && !is_system_folder(entry)
         };
         let walk = WalkDir::new(&root).follow_links(true).sort_by_file_name().into_iter();
-        for entry in walk.filter_entry(|entry| stays(entry, &mut problems)) {
+        for entry in walk.filter_entry(|entry| stays(entry, &mut links)) {
             match entry {
-                Ok(entry) if entry.file_type().is_file() => card.add(&entry, &root, &place),
-                Ok(_) => {}
+                Ok(entry) if entry.file_type().is_dir() => {}
+                Ok(entry) => card.add(&entry, &root, &place),
                 Err(error) => card.problems.push(unreadable(&error, &root, &place)),
             }
         }
-        card.problems.append(&mut problems);
+        card.problems.append(&mut links);
+        card.problems.extend(odd_names(&card.files, &place));
         // Sorted by the name with '/', which is not the order of a walk: 'A.BIN' stands before 'A/1.BIN' here.
         card.files.sort_by(|a, b| a.name.cmp(&b.name));
         Ok(card)
@@ -74,25 +77,33 @@ impl Card {
     }
 
     fn add(&mut self, entry: &DirEntry, root: &Path, place: &Place) {
-        let relative = entry.path().strip_prefix(root).unwrap_or(entry.path());
-        let parts: Option<Vec<&str>> = relative.iter().map(|part| part.to_str()).collect();
-        let bytes = entry.metadata().map(|metadata| metadata.len());
-        match (parts, bytes) {
-            (Some(parts), Ok(bytes)) => {
-                self.files.push(CardFile { name: parts.join("/"), path: entry.path().to_owned(), bytes });
-            }
-            (None, _) => {
-                let name = relative.display().to_string();
-                let fact = "the file's name is not UTF-8; the file is not read";
-                self.problems.push(place.problem("name_not_utf8", &name, fact, "rename the file"));
-            }
-            (_, Err(error)) => self.problems.push(unreadable(&error, root, place)),
+        let name = name_of(entry.path(), root);
+        if !entry.file_type().is_file() {
+            self.special.push(name);
+            return;
+        }
+        match entry.metadata() {
+            Ok(metadata) => self.files.push(CardFile { name, path: entry.path().to_owned(), bytes: metadata.len() }),
+            Err(error) => self.problems.push(unreadable(&error, root, place)),
         }
     }
 }
 
+fn name_of(path: &Path, root: &Path) -> String {
+    card_name(path.strip_prefix(root).unwrap_or(path))
+}
+
+fn leaves_card(entry: &DirEntry, root: &Path) -> bool {
+    entry.path_is_symlink() && entry.path().canonicalize().is_ok_and(|target| !target.starts_with(root))
+}
+
+fn is_system_folder(entry: &DirEntry) -> bool {
+    let name = entry.file_name().to_string_lossy().to_lowercase();
+    entry.depth() == 1 && entry.file_type().is_dir() && SYSTEM_FOLDERS.contains(&name.as_str())
+}
+
 fn unreadable(error: &walkdir::Error, root: &Path, place: &Place) -> Problem {
-    let name = error.path().map(|path| path.strip_prefix(root).unwrap_or(path).display().to_string());
+    let name = error.path().map(|path| name_of(path, root));
     let fact = match (error.loop_ancestor(), error.io_error()) {
         (Some(_), _) => "a symbolic link to a folder that contains it; it is not followed".to_owned(),
         (None, Some(io)) => format!("cannot be read: {io}"),

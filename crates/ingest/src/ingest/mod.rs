@@ -1,7 +1,10 @@
 //! From a card to an MCAP file.
 
 mod clock_problems;
+mod dropped;
 mod error;
+mod image_tally;
+mod recordings;
 mod run;
 
 pub use error::IngestError;
@@ -12,7 +15,7 @@ use jiff::Timestamp;
 use jiff::tz::TimeZone;
 use model::CameraSpec;
 
-use crate::card::{Card, Place};
+use crate::card::{Card, Declared, Place};
 use crate::key;
 use crate::mcap_file::Keep;
 use crate::profile::Profile;
@@ -123,6 +126,9 @@ fn ingest_as(
     if run.inputs.sha256.is_empty() {
         return Err(nothing_fits(source, &card));
     }
+    let images = source.profile.images.as_ref().map_or(&[][..], |images| &images.files);
+    let declared = Declared { all: &key::all_patterns(&source.profile), images };
+    run.problems.extend(card.unread(&declared, &place).map_err(IngestError::Pattern)?);
     run.finish(&entries, &camera)
 }
 

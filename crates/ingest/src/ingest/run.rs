@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use jiff::Timestamp;
-use model::{Camera, FrameReason, Problem, UtcNs};
+use model::{Camera, Problem, UtcNs};
 
 use super::clock_problems::clock_problems;
-use super::{IngestError, SessionSource};
+use super::image_tally::ImageTally;
+use super::{IngestError, SessionSource, dropped, recordings};
 use crate::card::{Anchoring, Card, CardFile, Inputs, Layout, Patterns, Place, Stream, TakenImage, read_image};
 use crate::key::{self, INGEST_VERSION};
 use crate::mcap_file::metadata::Facts;
@@ -122,11 +123,13 @@ impl<'a> Run<'a> {
         };
         let fitting = card.fitting(&Patterns::new(files).map_err(IngestError::Pattern)?);
         self.report_absent("camera", files, fitting.is_empty());
-        let mut entries = Vec::new();
+        let mut entries: Vec<ImageEntry> = Vec::new();
+        let mut tally = ImageTally::default();
         for file in &fitting {
             let camera = &source.camera_spec;
             match read_image(file, time, &source.time_zone, camera, &mut self.inputs, self.progress) {
-                Ok(TakenImage { entry, encoding, bytes }) => {
+                Ok(TakenImage { entry, encoding, bytes, remarks }) => {
+                    tally.add(&entry.file, entry.bytes, remarks);
                     self.writer.image(entry.time, encoding, bytes).map_err(|error| write_error(self.out, error))?;
                     entries.push(entry);
                 }
@@ -135,7 +138,10 @@ impl<'a> Run<'a> {
         }
         self.counts.images = entries.len() as u64;
         self.counts.dropped_images = self.dropped.len() as u64;
-        self.report_dropped();
+        self.problems.extend(dropped::problems(&self.dropped, self.place));
+        self.problems.extend(tally.notes(self.place));
+        let times: Vec<UtcNs> = entries.iter().map(|entry| entry.time).collect();
+        self.problems.extend(recordings::note(&times, self.place));
         Ok(entries)
     }
 
@@ -185,31 +191,10 @@ impl<'a> Run<'a> {
         let remedy = format!("sizes need it: add a table [{table}] to the profile if the device writes such files");
         self.problems.push(self.place.problem("not_declared", "", fact, remedy));
     }
-
-    /// One problem per reason, at the first image that has it.
-    fn report_dropped(&mut self) {
-        for reason in FrameReason::ALL {
-            let mut of_reason = self.dropped.iter().filter(|dropped| dropped.reason == *reason);
-            let Some(first) = of_reason.next() else { continue };
-            let fact = match of_reason.count() {
-                0 => format!("the image cannot be used: {}", first.detail),
-                more => format!("{} images cannot be used; this one: {}", more + 1, first.detail),
-            };
-            self.problems.push(self.place.problem(reason.code(), &first.file, fact, remedy_of(*reason)));
-        }
-    }
 }
 
 fn utc_ns(time: Timestamp) -> Option<UtcNs> {
     i64::try_from(time.as_nanosecond()).ok().map(UtcNs)
-}
-
-fn remedy_of(reason: FrameReason) -> &'static str {
-    match reason {
-        FrameReason::WrongSize => "give the camera that took these pictures: camera in study.toml or session.toml",
-        FrameReason::NoTime => "correct images.time in the device profile, or the file's name",
-        _ => "copy the file from the card again; if it stays so, the image is lost",
-    }
 }
 
 fn write_error(path: &Path, source: WriteError) -> IngestError {

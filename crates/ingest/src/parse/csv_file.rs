@@ -1,18 +1,17 @@
 //! A CSV file, one sample per row.
 
-use std::io::{BufRead, BufReader, Error, ErrorKind, Read, Result as IoResult};
+use std::io::Read;
 
 use jiff::fmt::strtime::BrokenDownTime;
 use jiff::tz::TimeZone;
 
+use super::csv_rows::CsvRows;
 use super::raw::{RawBlock, Stamps};
 use super::{Converter, Fault, decimal};
 use crate::profile::{CsvFormat, RowTime};
 
 /// Rows per block.
 const BATCH_ROWS: usize = 1024;
-/// A row of numbers is far shorter; a block of zeros on a damaged card has no line ends at all.
-const LONGEST_ROW_BYTES: usize = 64 * 1024;
 /// Columns that a message lists.
 const SHOWN_COLUMNS: usize = 30;
 
@@ -34,11 +33,10 @@ pub struct CsvLayout {
 /// Streams the samples of a CSV file, a batch of rows at a time. A row in which a value is empty or NaN is a missing
 /// sample.
 pub struct CsvSamples<R: Read> {
-    csv: csv::Reader<RowLimit<BufReader<R>>>,
+    rows: CsvRows<R>,
     layout: CsvLayout,
-    row: csv::ByteRecord,
     columns: Option<Columns>,
-    rows: u64,
+    read: u64,
     bad_rows: u64,
     bad_bytes: u64,
     first_bad_row: Option<(u64, String)>,
@@ -67,16 +65,8 @@ struct Batch {
 impl<R: Read> CsvSamples<R> {
     /// The rows in `reader`.
     pub fn new(reader: R, layout: CsvLayout) -> Self {
-        let mut inner = BufReader::with_capacity(256 * 1024, reader);
-        let end = skip_lines(&mut inner, layout.format.skip_lines).err();
-        let end = end.map(|error| Fault::Unreadable { offset: 0, message: error.to_string() });
-        let csv = csv::ReaderBuilder::new()
-            .has_headers(layout.format.header)
-            .delimiter(u8::try_from(layout.format.delimiter).unwrap_or(b','))
-            .flexible(true)
-            .from_reader(RowLimit { inner, bytes: 0 });
-        let row = csv::ByteRecord::new();
-        Self { csv, layout, row, columns: None, rows: 0, bad_rows: 0, bad_bytes: 0, first_bad_row: None, end }
+        let rows = CsvRows::new(reader, layout.format.delimiter);
+        Self { rows, layout, columns: None, read: 0, bad_rows: 0, bad_bytes: 0, first_bad_row: None, end: None }
     }
 
     /// The next rows. None when there are no more.
@@ -91,7 +81,7 @@ impl<R: Read> CsvSamples<R> {
                 return None;
             }
         };
-        let first = self.rows;
+        let first = self.read;
         let mut batch = Batch::default();
         batch.counts.resize(columns.values.len(), Vec::with_capacity(BATCH_ROWS));
         batch.extra.resize(columns.extra.len(), Vec::with_capacity(BATCH_ROWS));
@@ -104,7 +94,7 @@ impl<R: Read> CsvSamples<R> {
     pub fn finish(self) -> (Vec<Fault>, R) {
         let (rows, bytes) = (self.bad_rows, self.bad_bytes);
         let bad_rows = self.first_bad_row.map(|(first_line, first)| Fault::BadRows { rows, bytes, first_line, first });
-        (bad_rows.into_iter().chain(self.end).collect(), self.csv.into_inner().inner.into_inner())
+        (bad_rows.into_iter().chain(self.end).collect(), self.rows.into_inner())
     }
 
     fn block(&self, batch: Batch, first: u64, read: usize) -> RawBlock {
@@ -121,17 +111,16 @@ impl<R: Read> CsvSamples<R> {
 
     /// Reads a row into the batch. False at the end of the file.
     fn read_row(&mut self, columns: &Columns, batch: &mut Batch) -> bool {
-        match self.csv.read_byte_record(&mut self.row) {
+        match self.rows.next_row() {
             Ok(true) => {}
             Ok(false) => return false,
-            Err(error) => {
-                self.end = Some(fault_of(&error, self.csv.position()));
+            Err(fault) => {
+                self.end = Some(fault);
                 return false;
             }
         }
-        self.csv.get_mut().bytes = 0;
-        let number = u32::try_from(self.rows % BATCH_ROWS as u64).unwrap_or(0);
-        self.rows += 1;
+        let number = u32::try_from(self.read % BATCH_ROWS as u64).unwrap_or(0);
+        self.read += 1;
         match self.sample(columns, batch) {
             Ok(true) => batch.present.push(number),
             Ok(false) => batch.missing += 1,
@@ -141,6 +130,9 @@ impl<R: Read> CsvSamples<R> {
     }
 
     fn find_columns(&mut self) -> Result<Columns, Fault> {
+        for _ in 0..self.layout.format.skip_lines {
+            self.rows.skip_line()?;
+        }
         let layout = &self.layout;
         if !layout.format.header {
             let numbered = |name: &String| {
@@ -152,15 +144,15 @@ impl<R: Read> CsvSamples<R> {
             };
             return columns(layout, numbered);
         }
-        let header = match self.csv.byte_headers() {
-            Ok(header) => header.clone(),
-            Err(error) => return Err(fault_of(&error, self.csv.position())),
-        };
+        if !self.rows.next_row()? {
+            return Err(Fault::NoSamples);
+        }
+        let header = &self.rows;
         columns(layout, |name: &String| {
             let is_it = |column: &[u8]| column.trim_ascii() == name.as_bytes();
-            header.iter().position(is_it).ok_or_else(|| Fault::MissingColumn {
+            header.fields().position(is_it).ok_or_else(|| Fault::MissingColumn {
                 column: name.clone(),
-                found: header.iter().take(SHOWN_COLUMNS).map(shown).collect::<Vec<_>>().join(", "),
+                found: header.fields().take(SHOWN_COLUMNS).map(shown).collect::<Vec<_>>().join(", "),
             })
         })
     }
@@ -170,7 +162,7 @@ impl<R: Read> CsvSamples<R> {
         let stamp = columns.time.map(|column| self.stamp(column)).transpose()?;
         let mut counts = [0.0; 3];
         for ((count, column), name) in counts.iter_mut().zip(&columns.values).zip(&self.layout.values) {
-            let field = self.row.get(*column).ok_or_else(|| format!("the row ends before column '{name}'"))?;
+            let field = self.rows.get(*column).ok_or_else(|| format!("the row ends before column '{name}'"))?;
             *count = number(field).ok_or_else(|| format!("column '{name}': '{}' is not a number", shown(field)))?;
         }
         if !counts.iter().all(|count| count.is_finite()) {
@@ -181,7 +173,7 @@ impl<R: Read> CsvSamples<R> {
             column.push(count);
         }
         for (values, column) in batch.extra.iter_mut().zip(&columns.extra) {
-            let value = self.row.get(*column).and_then(number).unwrap_or(f64::NAN);
+            let value = self.rows.get(*column).and_then(number).unwrap_or(f64::NAN);
             #[expect(clippy::cast_possible_truncation, reason = "carried, not used")]
             values.push(value as f32);
         }
@@ -191,7 +183,7 @@ impl<R: Read> CsvSamples<R> {
     fn stamp(&self, column: usize) -> Result<i64, String> {
         let RowTime { column: name, unit, format, .. } = &self.layout.time;
         let name = name.as_deref().unwrap_or_default();
-        let field = self.row.get(column).ok_or_else(|| format!("the row ends before column '{name}'"))?.trim_ascii();
+        let field = self.rows.get(column).ok_or_else(|| format!("the row ends before column '{name}'"))?.trim_ascii();
         if let Some(format) = format {
             let wrong = |why: String| format!("column '{name}': '{}' does not fit '{format}': {why}", shown(field));
             return civil_ns(field, format).map_err(wrong);
@@ -202,8 +194,8 @@ impl<R: Read> CsvSamples<R> {
 
     fn note_bad_row(&mut self, fact: String) {
         self.bad_rows += 1;
-        self.bad_bytes += self.row.as_slice().len() as u64;
-        let line = self.row.position().map_or(0, csv::Position::line) + u64::from(self.layout.format.skip_lines);
+        self.bad_bytes += self.rows.row_bytes() as u64;
+        let line = self.rows.line();
         self.first_bad_row.get_or_insert((line, fact));
     }
 }
@@ -246,42 +238,5 @@ fn civil_ns(field: &[u8], format: &str) -> Result<i64, String> {
 
 /// Untrusted bytes for a message: printable and short.
 fn shown(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(&bytes[..bytes.len().min(40)]).escape_debug().to_string()
-}
-
-/// `end`: where reading stopped.
-fn fault_of(error: &csv::Error, end: &csv::Position) -> Fault {
-    match error.kind() {
-        csv::ErrorKind::Io(io) if io.kind() == ErrorKind::InvalidData => {
-            Fault::LongLine { line: end.line(), limit: LONGEST_ROW_BYTES }
-        }
-        _ => Fault::Unreadable { offset: end.byte(), message: error.to_string() },
-    }
-}
-
-/// Passes over the lines before the column names; each at most as long as a row.
-fn skip_lines(reader: &mut impl BufRead, lines: u32) -> IoResult<()> {
-    for _ in 0..lines {
-        let mut line = Vec::new();
-        reader.take(LONGEST_ROW_BYTES as u64).read_until(b'\n', &mut line)?;
-    }
-    Ok(())
-}
-
-/// Refuses to read on when a row does not end, so that a row never fills the memory.
-struct RowLimit<R> {
-    inner: R,
-    /// Bytes read since the last whole row.
-    bytes: usize,
-}
-
-impl<R: Read> Read for RowLimit<R> {
-    fn read(&mut self, buffer: &mut [u8]) -> IoResult<usize> {
-        if self.bytes > LONGEST_ROW_BYTES {
-            return Err(Error::new(ErrorKind::InvalidData, "row too long"));
-        }
-        let got = self.inner.read(buffer)?;
-        self.bytes += got;
-        Ok(got)
-    }
+    String::from_utf8_lossy(&bytes.trim_ascii()[..bytes.trim_ascii().len().min(40)]).escape_debug().to_string()
 }

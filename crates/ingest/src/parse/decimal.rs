@@ -11,12 +11,25 @@ pub(super) fn ns(text: &[u8], power_of_ten_ns: u32) -> Option<i64> {
     if whole.is_empty() || !fraction.iter().all(u8::is_ascii_digit) {
         return None;
     }
-    let digits = |total: Option<i64>, digit: &u8| {
-        let digit = digit.is_ascii_digit().then(|| i64::from(digit - b'0'))?;
-        total?.checked_mul(10)?.checked_add(digit)
+    let places = power_of_ten_ns as usize;
+    let (shifted, missing) = match fraction.get(..places) {
+        Some(shifted) => (shifted, 0),
+        None => (fraction, places - fraction.len()),
     };
-    let shifted = (0..power_of_ten_ns as usize).map(|place| fraction.get(place).unwrap_or(&b'0'));
-    whole.iter().chain(shifted).fold(Some(0), digits)
+    if !whole.iter().all(u8::is_ascii_digit) {
+        return None;
+    }
+    let value = |digit: &u8| i64::from(digit - b'0');
+    let digits = whole.iter().chain(shifted);
+    let zeros = 10_i64.checked_pow(u32::try_from(missing).ok()?)?;
+    if whole.len() + places <= 18 {
+        // No checks needed, and that is nearly all of the time.
+        return Some(digits.fold(0, |total, digit| 10 * total + value(digit)) * zeros);
+    }
+    digits
+        .copied()
+        .try_fold(0, |total: i64, digit| total.checked_mul(10)?.checked_add(value(&digit)))?
+        .checked_mul(zeros)
 }
 
 /// Nanoseconds of a number of units, whole and fraction apart, so that nothing is lost beyond the number's own digits.

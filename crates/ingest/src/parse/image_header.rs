@@ -46,18 +46,30 @@ pub enum HeaderError {
     Damaged(&'static str, String),
 }
 
+/// What a file's first bytes say it is; 8 of them are enough.
+#[must_use]
+pub fn encoding_of(start: &[u8]) -> Option<Encoding> {
+    if start.starts_with(&[0xff, 0xd8, 0xff]) {
+        Some(Encoding::Jpeg)
+    } else if start.starts_with(b"\x89PNG\r\n\x1a\n") {
+        Some(Encoding::Png)
+    } else {
+        None
+    }
+}
+
 /// Reads the header of a JPEG or PNG file; the pixels are not decoded.
 ///
 /// # Errors
 /// [`HeaderError`] when the bytes are no image, or the header is cut off or damaged.
 pub fn read(bytes: &[u8]) -> Result<ImageHeader, HeaderError> {
-    let (encoding, format) = if bytes.starts_with(&[0xff, 0xd8, 0xff]) {
-        (Encoding::Jpeg, ImageFormat::Jpeg)
-    } else if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
-        (Encoding::Png, ImageFormat::Png)
-    } else {
+    let encoding = encoding_of(bytes).ok_or_else(|| {
         let start: Vec<String> = bytes.iter().take(4).map(|byte| format!("{byte:02x}")).collect();
-        return Err(HeaderError::Magic(start.join(" ")));
+        HeaderError::Magic(start.join(" "))
+    })?;
+    let format = match encoding {
+        Encoding::Jpeg => ImageFormat::Jpeg,
+        Encoding::Png => ImageFormat::Png,
     };
     match ImageReader::with_format(Cursor::new(bytes), format).into_dimensions() {
         Ok((width_px, height_px)) => Ok(ImageHeader { encoding, width_px, height_px }),

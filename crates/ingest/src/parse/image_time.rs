@@ -8,7 +8,7 @@ use jiff::{Timestamp, Zoned};
 use model::UtcNs;
 
 /// Why an image has no time.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TimeError {
     /// The name does not fit the pattern.
     #[error("the name '{name}' does not fit '{pattern}': {why}")]
@@ -33,6 +33,21 @@ pub enum TimeError {
         /// Which of the two.
         why: String,
     },
+    /// Name and EXIF give different times.
+    #[error("the name says {name}, EXIF says {exif}: {apart_s} s apart, more than {tolerance_s} s")]
+    Disagree {
+        /// The name's time.
+        name: String,
+        /// EXIF's time.
+        exif: String,
+        /// Seconds between them.
+        apart_s: f64,
+        /// Seconds that are allowed.
+        tolerance_s: f64,
+    },
+    /// Neither name nor EXIF gives a time.
+    #[error("{0}; {1}")]
+    Neither(Box<Self>, Box<Self>),
     /// Before 1970 or after 2262.
     #[error("{0} is not between 1970 and 2262")]
     Range(String),
@@ -102,9 +117,13 @@ pub fn from_exif(image: &[u8], zone: &TimeZone) -> Result<UtcNs, TimeError> {
     if let Some(digits) = text(Tag::SubSecTimeOriginal) {
         time.parse_subsec(digits).map_err(wrong)?;
     }
-    match text(Tag::OffsetTimeOriginal).map(|offset| time.parse_offset(offset)) {
-        None | Some(Ok(()) | Err(exif::Error::BlankValue(_))) => {}
-        Some(Err(error)) => return Err(wrong(error)),
+    // The first of the two that says something. GPS stamps are not read: a receiver indoors repeats old ones.
+    for offset in [Tag::OffsetTimeOriginal, Tag::OffsetTime].into_iter().filter_map(text) {
+        match time.parse_offset(offset) {
+            Ok(()) => break,
+            Err(exif::Error::BlankValue(_)) => {}
+            Err(error) => return Err(wrong(error)),
+        }
     }
     let local = civil(&time).ok_or_else(|| TimeError::Exif(format!("{time} is no date and time")))?;
     match time.offset {
@@ -115,6 +134,34 @@ pub fn from_exif(image: &[u8], zone: &TimeZone) -> Result<UtcNs, TimeError> {
             utc_ns(utc.map_err(|error| TimeError::Exif(error.to_string()))?)
         }
     }
+}
+
+/// The time of an image whose name and EXIF both give one: the name's, if the two are at most `tolerance_s` apart. Where
+/// only one gives a time, that one; the flag says so.
+///
+/// # Errors
+/// [`TimeError::Disagree`] when they are further apart, [`TimeError::Neither`] when there is none.
+pub fn from_both(
+    name: Result<UtcNs, TimeError>,
+    exif: Result<UtcNs, TimeError>,
+    tolerance_s: f64,
+) -> Result<(UtcNs, bool), TimeError> {
+    match (name, exif) {
+        (Ok(name), Ok(exif)) => {
+            let apart_s = name.0.abs_diff(exif.0) as f64 / 1e9;
+            if apart_s <= tolerance_s {
+                return Ok((name, false));
+            }
+            Err(TimeError::Disagree { name: utc_text(name), exif: utc_text(exif), apart_s, tolerance_s })
+        }
+        (Ok(time), Err(_)) | (Err(_), Ok(time)) => Ok((time, true)),
+        (Err(name), Err(exif)) => Err(TimeError::Neither(Box::new(name), Box::new(exif))),
+    }
+}
+
+/// A time for people: `2025-06-01T12:00:00Z`.
+pub(crate) fn utc_text(time: UtcNs) -> String {
+    Timestamp::from_nanosecond(time.0.into()).map_or_else(|_| format!("{} ns", time.0), |time| time.to_string())
 }
 
 fn ascii(field: &Field) -> Option<&[u8]> {

@@ -3,14 +3,19 @@
 
 mod convert;
 mod csv_file;
+mod csv_rows;
 pub mod cwa;
 mod cwa_file;
 mod decimal;
 mod fault;
+pub mod image_extent;
 pub mod image_header;
 pub mod image_time;
+mod jpeg_extent;
+mod jpeg_tables;
 mod packet_file;
 mod packets;
+mod png_extent;
 mod raw;
 mod scalar;
 

@@ -1,7 +1,7 @@
 //! Whether the values of a profile make sense together.
 
 use super::check_sensors as sensors;
-use super::{ImageTime, PROFILE_SCHEMA_VERSION, Profile};
+use super::{ImageTime, Images, PROFILE_SCHEMA_VERSION, Profile};
 use crate::card::Patterns;
 use crate::parse::image_time;
 
@@ -25,18 +25,27 @@ pub(super) fn check(profile: &Profile) -> Result<(), Wrong> {
     }
     sensors::check(profile)?;
     if let Some(images) = &profile.images {
-        check_files("images.files", &images.files)?;
-        if let ImageTime::Name { pattern } = &images.time
-            && let Err(fact) = image_time::check_pattern(pattern)
-        {
-            return wrong("images.time.pattern", fact, "use strptime directives; docs/devices.md has examples");
-        }
+        check_images(images)?;
     }
     if profile.acceleration.is_none() && profile.range.is_none() && profile.images.is_none() {
         let remedy = "declare at least one of [acceleration], [range] and [images]";
         return wrong("acceleration", "the profile declares no files at all", remedy);
     }
     Ok(())
+}
+
+fn check_images(images: &Images) -> Result<(), Wrong> {
+    check_files("images.files", &images.files)?;
+    if let Some(Err(fact)) = images.time.pattern().map(image_time::check_pattern) {
+        return wrong("images.time.pattern", fact, "use strptime directives; docs/devices.md has examples");
+    }
+    match images.time {
+        ImageTime::Both { tolerance_s, .. } if !(tolerance_s.is_finite() && tolerance_s >= 0.0) => {
+            let fact = format!("{tolerance_s} is not a time in seconds");
+            wrong("images.time.tolerance_s", fact, "give how far name and EXIF may be apart: 0 or more seconds")
+        }
+        _ => Ok(()),
+    }
 }
 
 pub(super) fn check_files(key: &str, files: &[String]) -> Result<(), Wrong> {

@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Epoch, TimeUnit};
 
 /// What a CSV file looks like, whatever its columns.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CsvFormat {
     /// What separates columns: one ASCII character.
     pub delimiter: char,
@@ -18,8 +17,16 @@ pub struct CsvFormat {
 
 impl Default for CsvFormat {
     fn default() -> Self {
-        Self { delimiter: ',', skip_lines: 0, header: true }
+        Self { delimiter: comma(), skip_lines: 0, header: yes() }
     }
+}
+
+fn comma() -> char {
+    ','
+}
+
+fn yes() -> bool {
+    true
 }
 
 /// What gives a row its time: exactly one of `column` and `rows_per_s` and `rows_over_s`.
@@ -60,9 +67,15 @@ pub struct AccelerationColumns {
     pub y: String,
     /// Sensor z, in counts.
     pub z: String,
-    /// The file.
+    /// What separates columns: one ASCII character.
+    #[serde(default = "comma")]
+    pub delimiter: char,
+    /// Lines before the line of column names.
     #[serde(default)]
-    pub format: CsvFormat,
+    pub skip_lines: u32,
+    /// Whether there is a line of column names; without one, columns are called `#1`, `#2` and so on.
+    #[serde(default = "yes")]
+    pub header: bool,
 }
 
 /// Columns of a range sensor's CSV file.
@@ -73,7 +86,29 @@ pub struct RangeColumns {
     pub time: RowTime,
     /// Reading, in counts.
     pub range: String,
-    /// The file.
+    /// What separates columns: one ASCII character.
+    #[serde(default = "comma")]
+    pub delimiter: char,
+    /// Lines before the line of column names.
     #[serde(default)]
-    pub format: CsvFormat,
+    pub skip_lines: u32,
+    /// Whether there is a line of column names; without one, columns are called `#1`, `#2` and so on.
+    #[serde(default = "yes")]
+    pub header: bool,
+}
+
+impl AccelerationColumns {
+    /// What the file looks like.
+    #[must_use]
+    pub fn format(&self) -> CsvFormat {
+        CsvFormat { delimiter: self.delimiter, skip_lines: self.skip_lines, header: self.header }
+    }
+}
+
+impl RangeColumns {
+    /// What the file looks like.
+    #[must_use]
+    pub fn format(&self) -> CsvFormat {
+        CsvFormat { delimiter: self.delimiter, skip_lines: self.skip_lines, header: self.header }
+    }
 }

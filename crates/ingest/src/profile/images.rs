@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// The camera's files.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Images {
     /// Patterns relative to the card; `*` stays within a folder, `**` does not.
@@ -13,7 +13,7 @@ pub struct Images {
 }
 
 /// What gives an image its time.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "from", rename_all = "snake_case", deny_unknown_fields)]
 pub enum ImageTime {
     /// The file's name.
@@ -22,6 +22,29 @@ pub enum ImageTime {
         /// it holds if it has `%z`, `%:z` or `%s`; else in the study's time zone.
         pattern: String,
     },
-    /// EXIF `DateTimeOriginal` with `SubSecTimeOriginal`, and `OffsetTimeOriginal` if present; else in the study's zone.
+    /// EXIF `DateTimeOriginal` with `SubSecTimeOriginal`, by `OffsetTimeOriginal` or else `OffsetTime` if present; else in
+    /// the study's zone.
     Exif {},
+    /// The file's name, which EXIF checks; where only one of them gives a time, that one.
+    Both {
+        /// As for `Name`.
+        pattern: String,
+        /// Seconds that the two may be apart; an image whose times are further apart is not used.
+        #[serde(default = "default_tolerance_s")]
+        tolerance_s: f64,
+    },
+}
+
+fn default_tolerance_s() -> f64 {
+    2.0
+}
+
+impl ImageTime {
+    /// The pattern of the name, if the name counts.
+    pub(crate) fn pattern(&self) -> Option<&str> {
+        match self {
+            Self::Name { pattern } | Self::Both { pattern, .. } => Some(pattern),
+            Self::Exif {} => None,
+        }
+    }
 }

@@ -178,8 +178,22 @@ fn in_order(block: Block) -> Vec<Block> {
 fn fingerprint(block: &Block) -> u64 {
     let mut hasher = DefaultHasher::new();
     (block.times.first(), block.times.len(), block.sequence).hash(&mut hasher);
-    for value in block.channels.iter().flatten() {
-        value.to_bits().hash(&mut hasher);
+    for channel in &block.channels {
+        mixed(channel).hash(&mut hasher);
     }
     hasher.finish()
+}
+
+/// Values mixed into eight lanes, so that the processor works on all of them at once.
+fn mixed(values: &[f32]) -> [u32; 8] {
+    let mut lanes = [0_u32; 8];
+    let (whole, rest) = values.as_chunks::<8>();
+    let mut last = [0.0; 8];
+    last[..rest.len()].copy_from_slice(rest);
+    for chunk in whole.iter().chain([&last]) {
+        for (lane, value) in lanes.iter_mut().zip(chunk) {
+            *lane = (lane.rotate_left(5) ^ value.to_bits()).wrapping_mul(0x9e37_79b1);
+        }
+    }
+    lanes
 }

@@ -1,12 +1,17 @@
 //! Image times from names and from EXIF.
 
-use aim_batch_ingest::parse::image_time::{TimeError, check_pattern, from_exif, from_name};
+use aim_batch_ingest::parse::image_time::{TimeError, check_pattern, from_both, from_exif, from_name};
 use jiff::tz::TimeZone;
 use model::UtcNs;
 
-use crate::support::{NOON_S, jpeg, jpeg_with_exif, png};
+use crate::support::{NOON_S, jpeg, jpeg_with_exif, jpeg_with_exif_fields, png};
 
 const SECOND: i64 = 1_000_000_000;
+
+// Tags of EXIF.
+const ORIGINAL: u16 = 0x9003;
+const OFFSET: u16 = 0x9010;
+const OFFSET_ORIGINAL: u16 = 0x9011;
 
 fn chicago() -> TimeZone {
     TimeZone::get("America/Chicago").unwrap()
@@ -42,10 +47,44 @@ fn an_offset_or_posix_seconds_in_the_name_decide() {
 
 #[test]
 fn a_local_time_that_is_none_or_two_is_refused() {
-    let at = |name: &str| from_name(name, "%Y%m%dT%H%M%S", &chicago());
-    assert!(matches!(at("20251102T013000.jpg"), Err(TimeError::Ambiguous { .. })), "twice");
-    assert!(matches!(at("20250309T023000.jpg"), Err(TimeError::Ambiguous { .. })), "never");
-    assert!(at("20251102T003000.jpg").is_ok());
+    let changes = [
+        ("America/Chicago", "20250309T023000", "20250309T013000", "20250309T033000", 1),
+        ("America/Chicago", "20251102T013000", "20251102T003000", "20251102T023000", 3),
+        ("Europe/Berlin", "20250330T023000", "20250330T013000", "20250330T033000", 1),
+        ("Europe/Berlin", "20251026T023000", "20251026T013000", "20251026T033000", 3),
+    ];
+    for (zone, change, before, after, hours) in changes {
+        let zone = TimeZone::get(zone).unwrap();
+        let from_name = |local: &str| from_name(&format!("{local}.jpg"), "%Y%m%dT%H%M%S", &zone);
+        let from_exif = |local: &str| from_exif(&jpeg_with_exif(Some(&exif_text(local)), None, None), &zone);
+        for at in [&from_name as &dyn Fn(&str) -> _, &from_exif] {
+            let error = at(change).unwrap_err();
+            assert!(matches!(error, TimeError::Ambiguous { .. }), "{change} in {zone:?}: {error}");
+            let passed = (at(after).unwrap().0 - at(before).unwrap().0) / (3600 * SECOND);
+            assert_eq!(passed, hours, "2 h of the clock around {change}");
+        }
+    }
+}
+
+/// 20250309T023000 as EXIF writes it.
+fn exif_text(local: &str) -> String {
+    let part = |range: std::ops::Range<usize>| &local[range];
+    format!("{}:{}:{} {}:{}:{}", part(0..4), part(4..6), part(6..8), part(9..11), part(11..13), part(13..15))
+}
+
+#[test]
+fn name_and_exif_check_each_other() {
+    let at = |seconds: f64| Ok(UtcNs(NOON_S * SECOND).plus_seconds(seconds));
+    let none = || Err(TimeError::Exif("none".to_owned()));
+    assert_eq!(from_both(at(0.0), at(2.0), 2.0), Ok((at(0.0).unwrap(), false)), "the name's");
+    assert_eq!(from_both(at(0.0), none(), 2.0), Ok((at(0.0).unwrap(), true)));
+    assert_eq!(from_both(none(), at(5.0), 2.0), Ok((at(5.0).unwrap(), true)));
+    let error = from_both(at(0.0), at(-3600.25), 2.0).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "the name says 2025-06-01T12:00:00Z, EXIF says 2025-06-01T10:59:59.75Z: 3600.25 s apart, more than 2 s"
+    );
+    assert_eq!(from_both(none(), none(), 2.0).unwrap_err().to_string().matches("EXIF gives no time").count(), 2);
 }
 
 #[test]
@@ -73,6 +112,17 @@ fn exif_gives_the_time_with_subseconds_and_offset() {
     assert_eq!(time(Some("25"), Some("+00:00")), Ok(UtcNs(NOON_S * SECOND + 250_000_000)));
     assert_eq!(time(Some("123456"), Some("-03:30")), Ok(UtcNs((NOON_S + 12_600) * SECOND + 123_456_000)));
     assert_eq!(time(None, Some("   :  ")), Ok(UtcNs((NOON_S + 5 * 3600) * SECOND)), "a blank offset is none");
+}
+
+#[test]
+fn the_offset_of_the_file_s_time_does_where_the_picture_s_is_absent() {
+    let local = "2025:06:01 12:00:00";
+    let time = |fields: &[(u16, &str)]| from_exif(&jpeg_with_exif_fields(fields), &chicago());
+    let noon = Ok(UtcNs(NOON_S * SECOND));
+    assert_eq!(time(&[(ORIGINAL, local), (OFFSET, "+00:00")]), noon);
+    assert_eq!(time(&[(ORIGINAL, local), (OFFSET, "+00:00"), (OFFSET_ORIGINAL, "   :  ")]), noon, "blank is absent");
+    let both = time(&[(ORIGINAL, local), (OFFSET, "+05:00"), (OFFSET_ORIGINAL, "+00:00")]);
+    assert_eq!(both, noon, "the picture's own goes first");
 }
 
 #[test]

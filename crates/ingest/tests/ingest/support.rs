@@ -112,6 +112,20 @@ pub fn jpeg(width: u32, height: u32, shade: u8) -> Vec<u8> {
     bytes
 }
 
+/// A JPEG of noise: as many bytes as a picture of that size can have.
+pub fn noisy_jpeg(width: u32, height: u32) -> Vec<u8> {
+    let mut state = 1_u32;
+    let mut noise = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 24) as u8
+    };
+    let pixels: Vec<u8> = (0..width * height * 3).map(|_| noise()).collect();
+    let mut bytes = Vec::new();
+    let encoder = image::codecs::jpeg::JpegEncoder::new(&mut bytes);
+    encoder.write_image(&pixels, width, height, ExtendedColorType::Rgb8).unwrap();
+    bytes
+}
+
 pub fn png(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
     let pixels = vec![100; (width * height * 3) as usize];
@@ -122,10 +136,15 @@ pub fn png(width: u32, height: u32) -> Vec<u8> {
 
 /// A JPEG with EXIF times: DateTimeOriginal, SubSecTimeOriginal, OffsetTimeOriginal.
 pub fn jpeg_with_exif(time: Option<&str>, subsec: Option<&str>, offset: Option<&str>) -> Vec<u8> {
-    let fields: Vec<(u16, Vec<u8>)> = [(0x9003, time), (0x9011, offset), (0x9291, subsec)]
-        .into_iter()
-        .filter_map(|(tag, text)| text.map(|text| (tag, [text.as_bytes(), &[0]].concat())))
-        .collect();
+    let fields = [(0x9003, time), (0x9011, offset), (0x9291, subsec)];
+    let given: Vec<_> = fields.into_iter().filter_map(|(tag, text)| text.map(|text| (tag, text))).collect();
+    jpeg_with_exif_fields(&given)
+}
+
+/// A JPEG of 32 x 24 px with text fields in its EXIF directory, by ascending tag.
+pub fn jpeg_with_exif_fields(fields: &[(u16, &str)]) -> Vec<u8> {
+    let fields: Vec<(u16, Vec<u8>)> =
+        fields.iter().map(|(tag, text)| (*tag, [text.as_bytes(), &[0]].concat())).collect();
     let exif_ifd = 8 + 2 + 12 + 4;
     let mut tiff = b"II*\0\x08\0\0\0\x01\0".to_vec();
     tiff.extend(entry(0x8769, 4, 1, (exif_ifd as u32).to_le_bytes()));

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::flow::flow_markdown;
+use crate::frame_log::FrameFlag;
 
 use super::{Column, ColumnType, FRAME_COLUMNS, RESULT_COLUMNS, RESULTS_SCHEMA_VERSION};
 
@@ -41,6 +42,14 @@ pub fn ledger_markdown() -> String {
                     `AIM_BATCH_UPDATE=1 cargo test -p aim-batch-model --test dictionary` rewrites it.\n\n"
         .to_owned();
     text.push_str(&flow_markdown());
+    text.push_str(
+        "\n## Flags\n\nWhat to know about an image's signals (docs/signals.md). A flag drops nothing: it stands in the column \
+         `flags` of the image and of the sizes measured on it. Made from `FrameFlag` in the same file.\n\n\
+         | flag | meaning |\n|---|---|\n",
+    );
+    for flag in FrameFlag::ALL {
+        let _ = writeln!(text, "| `{}` | {} |", flag.code(), flag.meaning());
+    }
     section(&mut text, "The columns of frames.parquet", "As in docs/results.md.", FRAME_COLUMNS);
     text
 }

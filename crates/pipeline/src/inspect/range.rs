@@ -7,9 +7,8 @@ use serde::Serialize;
 
 use super::clock::ClockFacts;
 use super::histogram::Histogram;
+use crate::signals::NO_TARGET_MM;
 
-/// Codes of the VL53L0X for 'no target' (ST UM2039: out of range).
-const NO_TARGET_MM: [f32; 2] = [8190.0, 8191.0];
 /// Bins of the range: 0 to 2000 mm.
 const RANGE_BIN_MM: f64 = 100.0;
 const RANGE_BINS: u32 = 20;
@@ -35,10 +34,11 @@ pub(super) fn read(
     let mut range_mm = Histogram::new(0.0, RANGE_BIN_MM, RANGE_BINS);
     let mut no_target_samples = 0;
     reader.for_each_range(|_, mm| {
+        let mm = f64::from(mm);
         if NO_TARGET_MM.contains(&mm) {
             no_target_samples += 1;
         } else {
-            range_mm.add(f64::from(mm));
+            range_mm.add(mm);
         }
     })?;
     Ok(Some(RangeFacts { clock: ClockFacts::new(facts, zone), no_target_samples, range_mm }))

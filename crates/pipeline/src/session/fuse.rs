@@ -1,6 +1,6 @@
 //! One size per object, rater, quantity and method from the selected frames of a session.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use model::{ErrorStats, Level, Method, Quantity, ResultRow};
 
@@ -57,8 +57,15 @@ fn fuse_group(frames: &[&ResultRow]) -> Option<ResultRow> {
         error_pct: error_pct(Some(stats.mean), first.truth_mm),
         frames: u32::try_from(frames.len()).unwrap_or(u32::MAX),
         spread_mm: stats.sample_sd,
+        flags: flags(frames),
         ..first.clone()
     })
+}
+
+/// What to know about any of the frames, each code once.
+fn flags(frames: &[&ResultRow]) -> String {
+    let all = frames.iter().flat_map(|row| row.flags.split(',')).filter(|flag| !flag.is_empty());
+    all.collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>().join(",")
 }
 
 #[cfg(test)]
@@ -119,6 +126,13 @@ mod tests {
         assert_eq!((row.sigma_range_mm, row.sigma_pitch_mm), (Some(6.0), Some(1.0)), "the pose's errors are common");
         let expected: f64 = 1.0 + 0.25 + 36.0 + 2.0 + 2.25;
         assert!((row.sigma_mm.unwrap() - expected.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_flag_of_one_frame_is_one_of_the_fused_size() {
+        let flagged = |flags: &str| ResultRow { flags: flags.to_owned(), ..frame("A", Some(200.0), true) };
+        let fused = fuse(&[flagged(""), flagged("range_step,mark_outside_picture"), flagged("range_step")]);
+        assert_eq!(fused[0].flags, "mark_outside_picture,range_step");
     }
 
     #[test]

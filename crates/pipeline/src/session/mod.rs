@@ -1,23 +1,28 @@
 //! The road of one session: card -> MCAP -> signals -> marks -> sizes -> rows.
 
 mod fuse;
+mod lag;
 mod marks;
 mod problems;
+mod read;
 mod rows;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use ingest::{DroppedImage, ImageEntry, IngestProgress, Ingested, SessionMetadata, SessionReader, SessionSource};
+use ingest::{DroppedImage, ImageEntry, IngestProgress, Ingested, SessionSource};
 use model::{Camera, FrameRow, Problem, ResultRow, SessionStatus, Severity, Stage};
 
 use crate::inputs::sha256_of_file;
 use crate::reporter::Reporter;
-use crate::signals::{self, FrameSignals, SignalSettings};
+use crate::signals::FrameSignals;
 use crate::study::{SessionDir, SessionSpec, Study};
 use marks::SessionMarks;
 pub(crate) use problems::without_host;
 use problems::{MARKS_CAMERA_FACT, bad_camera, link_out_of_study, missing_card, no_pose};
+use read::Read;
 
 /// What one session gives.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -85,18 +90,17 @@ pub fn run_session(
     for problem in &mut output.status.problems {
         problem.fact = without_host(&problem.fact, study, &options.mcap_dir);
     }
-    for problem in &output.status.problems {
-        tracing::warn!(
-            session = dir.name,
-            stage = %problem.stage,
-            code = problem.code,
-            place = problem.place,
-            remedy = problem.remedy,
-            "{}",
-            problem.fact
-        );
-    }
+    output.status.problems.iter().for_each(|problem| log(&dir.name, problem));
     output
+}
+
+/// Losses as warnings; notes are told in the report, and logged for those who ask for more.
+fn log(session: &str, problem: &Problem) {
+    let Problem { severity, stage, code, place, fact, remedy } = problem;
+    match severity {
+        Severity::Loss => tracing::warn!(session, %stage, code, place, remedy, "{fact}"),
+        Severity::Note => tracing::info!(session, %stage, code, place, remedy, "{fact}"),
+    }
 }
 
 fn fill(
@@ -110,8 +114,8 @@ fn fill(
     reporter.stage(&dir.name, Stage::Ingest);
     let mcap = ingest_card(&source, options, reporter)?;
     reporter.stage(&dir.name, Stage::Signals);
-    let (metadata, frames) = read_frames(study, &mcap, &dir.name)?;
-    output.status.problems.extend(metadata.problems.iter().cloned());
+    let Read { metadata, frames, notes } = read::read(study, &mcap, &dir.name)?;
+    output.status.problems.extend(metadata.problems.iter().cloned().chain(notes));
     let on_card = metadata.inputs_sha256.iter().map(|(file, sha)| (format!("cards/{}/{file}", dir.name), sha.clone()));
     output.inputs_sha256.extend(on_card);
     let session = Session { study, dir, spec, marks_camera, frames, dropped: metadata.dropped_images };
@@ -216,28 +220,6 @@ impl IngestProgress for Progress<'_> {
     fn advance(&self, bytes: u64) {
         self.reporter.bytes_read(self.session, bytes);
     }
-}
-
-fn read_frames(study: &Study, mcap: &Path, name: &str) -> Result<(SessionMetadata, Vec<Frame>), Problem> {
-    let refuse = |error: ingest::ReadError| Problem {
-        severity: Severity::Loss,
-        stage: Stage::Signals,
-        code: "bad_mcap".to_owned(),
-        place: format!("mcap/{name}.mcap"),
-        fact: error.to_string(),
-        remedy: "run again with --force to ingest the card anew".to_owned(),
-    };
-    let mut reader = SessionReader::open(mcap).map_err(refuse)?;
-    let metadata = reader.metadata().clone();
-    let images = reader.images().map_err(refuse)?;
-    let times: Vec<_> = images.iter().map(|image| image.time).collect();
-    let settings = SignalSettings {
-        signals: study.spec.signals.clone(),
-        select: study.spec.select.clone(),
-        mount_pitch_rad: study.spec.mount.pitch_offset_deg.unwrap_or(metadata.mount_pitch_deg).to_radians(),
-    };
-    let signals = signals::at_images(&mut reader, &times, &settings).map_err(refuse)?;
-    Ok((metadata, images.into_iter().zip(signals).map(|(image, signals)| Frame { image, signals }).collect()))
 }
 
 fn relative(study: &Study, path: &Path) -> String {

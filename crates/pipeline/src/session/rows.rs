@@ -16,7 +16,6 @@ use crate::study::Object;
 struct Marked<'a> {
     session: &'a Session<'a>,
     frame: &'a Frame,
-    pose: Pose,
     rater: &'a str,
     object: &'a Object,
     marks: &'a ObjectMarks,
@@ -27,14 +26,14 @@ pub(super) fn measure_all(session: &Session<'_>, marks: &SessionMarks, problems:
     let mut rows = Vec::new();
     for frame in &session.frames {
         for (rater, objects) in marks.of_image(&frame.image.file) {
-            let Some(pose) = frame.signals.pose else {
+            if frame.signals.pose.is_none() {
                 problems.push(unusable(session, frame, rater));
                 continue;
-            };
+            }
             for marks in objects {
                 // Marks of unknown objects were refused when they were read.
                 let Some(object) = session.study.objects.get(&marks.object) else { continue };
-                rows.extend(measure_one(&Marked { session, frame, pose, rater, object, marks }, problems));
+                rows.extend(measure_one(&Marked { session, frame, rater, object, marks }, problems));
             }
         }
     }
@@ -60,18 +59,19 @@ fn unusable(session: &Session<'_>, frame: &Frame, rater: &str) -> Problem {
 
 fn measure_one(marked: &Marked<'_>, problems: &mut Vec<Problem>) -> Vec<ResultRow> {
     let study = marked.session.study;
-    let view = View::new(marked.session.marks_camera, marked.pose);
     let inputs = study.spec.uncertainty.inputs();
     let mut rows = Vec::new();
     let mut told = BTreeSet::new();
     for method in &study.spec.measure.methods {
+        let Some(pose) = marked.frame.signals.pose_for(*method) else { continue };
+        let view = View::new(marked.session.marks_camera, pose);
         for (quantity, size) in estimate(&view, *method, &marked.object.container, marked.marks, &inputs) {
             if let Err(error) = &size
                 && told.insert((quantity, error.code()))
             {
                 problems.push(unmeasured(marked, quantity, error));
             }
-            rows.push(row(marked, *method, quantity, &size));
+            rows.push(row(marked, pose, *method, quantity, &size));
         }
     }
     if rows.is_empty() {
@@ -103,8 +103,14 @@ fn nothing(marked: &Marked<'_>) -> Problem {
     }
 }
 
-fn row(marked: &Marked<'_>, method: Method, quantity: Quantity, size: &Result<Estimate, MeasureError>) -> ResultRow {
-    let Marked { session, frame, pose, rater, object, marks } = marked;
+fn row(
+    marked: &Marked<'_>,
+    pose: Pose,
+    method: Method,
+    quantity: Quantity,
+    size: &Result<Estimate, MeasureError>,
+) -> ResultRow {
+    let Marked { session, frame, rater, object, marks } = marked;
     let measured = size.as_ref().ok().map(|e| e.measured);
     let sigma = size.as_ref().ok().and_then(|e| e.sigma);
     let truth_mm = object.truth_mm.get(&quantity).copied();
@@ -112,6 +118,7 @@ fn row(marked: &Marked<'_>, method: Method, quantity: Quantity, size: &Result<Es
     let selected = frame.signals.reason == FrameReason::Selected;
     let mut flags: Vec<&str> = Vec::new();
     flags.extend((!selected).then(|| frame.signals.reason.code()));
+    flags.extend(frame.signals.flags.iter().map(|flag| flag.code()));
     flags.extend((!marks.inside_picture(session.marks_camera.size_px())).then_some("mark_outside_picture"));
     flags.extend(size.as_ref().err().map(MeasureError::code));
     ResultRow {
@@ -174,6 +181,8 @@ pub(super) fn ledger(session: &Session<'_>, marks: &SessionMarks, results: &[Res
         range_mm: frame.signals.range_mm,
         range_spread_mm: frame.signals.range_spread_mm,
         range_samples: frame.signals.range_samples,
+        range_distinct: frame.signals.range_distinct,
+        flags: frame.signals.flags.iter().map(|flag| flag.code()).collect::<Vec<_>>().join(","),
         raters: count(marks.of_image(&frame.image.file).count()),
         sizes: sizes.get(frame.image.file.as_str()).copied().unwrap_or_default(),
         ..empty_row(session, &frame.image.file, frame.signals.reason)

@@ -4,10 +4,16 @@
 //! *is* that DC part, so pitch comes from the low-passed signal here, and the high-passed remainder says how still the
 //! head was.
 
+mod fit;
+#[cfg(test)]
+mod tests;
+
 use std::f64::consts::{LN_2, TAU};
 
 use model::{UtcNs, median};
 use nalgebra::Vector3;
+
+use fit::Line;
 
 /// Gravity as the device feels it, and the motion around it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,12 +22,22 @@ pub(super) struct Gravity {
     pub specific_force_g: Vector3<f64>,
     /// RMS length of what the low-pass removed.
     pub motion_rms_g: f64,
+    /// Whether nearly all of it comes from one side of the image's time.
+    pub one_sided: bool,
 }
 
 /// Fewer samples than this within one kernel SD of the image do not tell gravity.
 const MIN_CENTRAL_SAMPLES: usize = 5;
 /// The kernel is cut off at this many of its SDs (weight 0.011).
 const KERNEL_REACH_SD: f64 = 3.0;
+/// Steps between samples, and between a sample and the image, that are longer than this many kernel SDs are not bridged:
+/// what lies beyond says nothing about gravity here. (5 samples in two SDs leave steps of 0.5 SD at most, so that slow
+/// sensors pass.)
+const BRIDGE_SD: f64 = 0.5;
+/// Samples that span less than this many kernel SDs do not tell a turn from a bump.
+const MIN_SPAN_SD: f64 = 1.0;
+/// A side with less than this part of the kernel's mass is missing.
+const MIN_SIDE: f64 = 0.25;
 /// Residuals longer than this many SDs (of one axis) count less: Huber's weights (Huber 1981), with a knee that lets
 /// three-dimensional Gaussian noise pass (longer than this: 6 in 1000).
 const HUBER_SD: f64 = 3.5;
@@ -40,90 +56,62 @@ pub(super) fn half_window_s(cutoff_hz: f64) -> f64 {
     KERNEL_REACH_SD * kernel_sd_s(cutoff_hz)
 }
 
-/// Gravity at `time` from the samples within [`half_window_s`] of it. The kernel is symmetric about the image's time (no
-/// phase) and works on true sample times, so holes and uneven steps need no resampling. Samples far from the others (a
-/// bump) count less, by Huber's weights on the length of the residual.
+/// Gravity at `time` from the samples within [`half_window_s`] of it, in the order of time.
+///
+/// A line in time is fitted with the kernel's weights, and its value at the image's time taken (local linear regression,
+/// Fan & Gijbels 1996). Where samples lie on both sides alike that is the kernel's mean; where one side is missing, a mean
+/// would be gravity of another moment, and the line is not: a steady turn keeps zero phase up to the edge. It works on true
+/// sample times, so holes and uneven steps need no resampling; samples beyond a gap are left out ([`BRIDGE_SD`]). Samples
+/// far from the line (a bump) count less, by Huber's weights on the length of the residual.
 pub(super) fn at(time: UtcNs, samples: &[(UtcNs, Vector3<f64>)], cutoff_hz: f64) -> Option<Gravity> {
     let sd_s = kernel_sd_s(cutoff_hz);
+    let samples = without_gaps(time, samples, BRIDGE_SD * sd_s);
+    let (first, last) = (samples.first()?.0, samples.last()?.0);
     let central = samples.iter().filter(|(t, _)| t.seconds_since(time).abs() <= sd_s).count();
-    if central < MIN_CENTRAL_SAMPLES {
+    if central < MIN_CENTRAL_SAMPLES || last.seconds_since(first) < MIN_SPAN_SD * sd_s {
         return None;
     }
     let kernel: Vec<f64> = samples.iter().map(|(t, _)| (-0.5 * (t.seconds_since(time) / sd_s).powi(2)).exp()).collect();
-    let mut weights = kernel.clone();
-    let mut mean = weighted_mean(samples, &weights);
+    let mass: f64 = kernel.iter().sum();
+    let line = robust_line(time, samples, &kernel)?;
+    let specific_force_g = line.at_zero;
+    let squares: f64 = samples.iter().zip(&kernel).map(|((_, a), w)| w * (a - specific_force_g).norm_squared()).sum();
+    let before: f64 = samples.iter().zip(&kernel).filter(|((t, _), _)| *t <= time).map(|(_, w)| w / mass).sum();
+    let one_sided = !(MIN_SIDE..=1.0 - MIN_SIDE).contains(&before);
+    let motion_rms_g = (squares / mass).sqrt();
+    specific_force_g.iter().all(|c| c.is_finite()).then_some(Gravity { specific_force_g, motion_rms_g, one_sided })
+}
+
+/// The samples that hang together with `time` by steps of at most `bridge_s`.
+fn without_gaps<T>(time: UtcNs, samples: &[(UtcNs, T)], bridge_s: f64) -> &[(UtcNs, T)] {
+    let image_at = samples.partition_point(|(t, _)| *t <= time);
+    let (before, after) = samples.split_at(image_at);
+    let connected = |near: &mut UtcNs, t: UtcNs| {
+        let step_s = t.seconds_since(*near).abs();
+        *near = t;
+        step_s <= bridge_s
+    };
+    let mut near = time;
+    let taken_before = before.iter().rev().take_while(|(t, _)| connected(&mut near, *t)).count();
+    near = time;
+    let taken_after = after.iter().take_while(|(t, _)| connected(&mut near, *t)).count();
+    &samples[image_at - taken_before..image_at + taken_after]
+}
+
+fn robust_line(time: UtcNs, samples: &[(UtcNs, Vector3<f64>)], kernel: &[f64]) -> Option<Line> {
+    let seconds: Vec<f64> = samples.iter().map(|(t, _)| t.seconds_since(time)).collect();
+    let mut weights = kernel.to_vec();
+    let mut line = Line::fit(&seconds, samples, &weights)?;
     for _ in 0..ROUNDS {
-        let lengths: Vec<f64> = samples.iter().map(|(_, a)| (a - mean).norm()).collect();
+        let residuals = samples.iter().zip(&seconds).map(|((_, a), s)| (a - line.at(*s)).norm());
+        let lengths: Vec<f64> = residuals.collect();
         let limit = HUBER_SD * median(lengths.clone()) / MEDIAN_LENGTH_SD;
-        for ((weight, kernel), length) in weights.iter_mut().zip(&kernel).zip(&lengths) {
+        for ((weight, kernel), length) in weights.iter_mut().zip(kernel).zip(&lengths) {
             *weight = if *length > limit { kernel * limit / length } else { *kernel };
         }
-        mean = weighted_mean(samples, &weights);
+        // Where more than half lies on the line exactly, the limit is 0 and so may be all weights: the line stands.
+        let Some(next) = Line::fit(&seconds, samples, &weights) else { break };
+        line = next;
     }
-    let squares: f64 = samples.iter().zip(&kernel).map(|((_, a), w)| w * (a - mean).norm_squared()).sum();
-    let motion_rms_g = (squares / kernel.iter().sum::<f64>()).sqrt();
-    mean.iter().all(|c| c.is_finite()).then_some(Gravity { specific_force_g: mean, motion_rms_g })
-}
-
-fn weighted_mean(samples: &[(UtcNs, Vector3<f64>)], weights: &[f64]) -> Vector3<f64> {
-    let sum: Vector3<f64> = samples.iter().zip(weights).map(|((_, a), w)| a * *w).sum();
-    sum / weights.iter().sum::<f64>()
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-    use super::*;
-
-    const RATE_HZ: f64 = 128.0;
-    const CUTOFF_HZ: f64 = 0.25;
-
-    fn samples(value: impl Fn(f64) -> Vector3<f64>) -> Vec<(UtcNs, Vector3<f64>)> {
-        let reach = half_window_s(CUTOFF_HZ);
-        let n = (2.0 * reach * RATE_HZ) as u32;
-        (0..=n).map(|i| f64::from(i) / RATE_HZ - reach).map(|s| (UtcNs(0).plus_seconds(s), value(s))).collect()
-    }
-
-    #[test]
-    fn response_is_3_db_down_at_the_cutoff_and_gone_at_ten_times_it() {
-        for (frequency_hz, expected) in [(CUTOFF_HZ, 0.707), (10.0 * CUTOFF_HZ, 0.0)] {
-            let found = at(UtcNs(0), &samples(|s| Vector3::new((TAU * frequency_hz * s).cos(), 0.0, 0.0)), CUTOFF_HZ);
-            let gain = found.unwrap().specific_force_g.x;
-            // Huber's weights are not linear, and the kernel ends at 3 SD.
-            assert!((gain - expected).abs() < 0.04, "{gain} at {frequency_hz} Hz");
-        }
-    }
-
-    #[test]
-    fn a_steady_turn_has_no_phase() {
-        let found = at(UtcNs(0), &samples(|s| Vector3::new(0.3 + 0.1 * s, -1.0, 0.0)), CUTOFF_HZ).unwrap();
-        assert!((found.specific_force_g.x - 0.3).abs() < 1e-3);
-    }
-
-    #[test]
-    fn a_bump_shows_as_motion_and_hardly_moves_gravity() {
-        let still = |s: f64| Vector3::new(0.004 * (TAU * 31.0 * s).sin(), -1.0, 0.003 * (TAU * 17.0 * s).cos());
-        let bump =
-            |s: f64| still(s) + if (0.3..0.4).contains(&s) { Vector3::new(1.5, 0.0, 0.0) } else { Vector3::zeros() };
-        let (before, after) =
-            (at(UtcNs(0), &samples(still), CUTOFF_HZ).unwrap(), at(UtcNs(0), &samples(bump), CUTOFF_HZ).unwrap());
-        assert!(before.motion_rms_g < 0.006 && after.motion_rms_g > 0.2);
-        assert!((after.specific_force_g - before.specific_force_g).norm() < 0.002);
-    }
-
-    #[test]
-    fn too_few_samples_tell_nothing() {
-        let all = samples(|_| Vector3::new(0.0, -1.0, 0.0));
-        assert!(at(UtcNs(0), &all[..3], CUTOFF_HZ).is_none());
-        assert!(at(UtcNs(0), &[], CUTOFF_HZ).is_none());
-        let only_far_away: Vec<_> =
-            all.iter().filter(|(t, _)| t.seconds_since(UtcNs(0)).abs() > 1.0).copied().collect();
-        assert!(at(UtcNs(0), &only_far_away, CUTOFF_HZ).is_none());
-    }
-
-    #[test]
-    fn identical_samples_give_themselves() {
-        let found = at(UtcNs(0), &samples(|_| Vector3::new(0.1, -0.9, 0.2)), CUTOFF_HZ).unwrap();
-        assert!((found.specific_force_g - Vector3::new(0.1, -0.9, 0.2)).norm() < 1e-12 && found.motion_rms_g < 1e-12);
-    }
+    Some(line)
 }

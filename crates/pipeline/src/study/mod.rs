@@ -17,7 +17,8 @@ pub use error::StudyError;
 pub use objects::Object;
 pub use sessions::{SessionDir, SessionSpec};
 pub use spec::{
-    MarksSpec, MeasureSpec, MountSpec, PrintedFiles, SelectSpec, SignalsSpec, StudySpec, TableEntry, UncertaintySpec,
+    GravityCalibrate, MarksSpec, MeasureSpec, MountSpec, PrintedFiles, RangeCone, SelectSpec, SignalsSpec, StudySpec,
+    TableEntry, TimeSpec, UncertaintySpec,
 };
 
 /// A study whose settings have been read and checked.

@@ -30,6 +30,9 @@ pub struct StudySpec {
     /// How the camera sits on the device.
     #[serde(default)]
     pub mount: MountSpec,
+    /// The cameras' clock against the sensors'.
+    #[serde(default)]
+    pub time: TimeSpec,
     /// From samples to pitch, roll, stillness and range.
     #[serde(default)]
     pub signals: SignalsSpec,
@@ -67,6 +70,16 @@ pub struct MountSpec {
     pub pitch_offset_deg: Option<f64>,
 }
 
+/// `[time]`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct TimeSpec {
+    /// Sensor time = image time + this.
+    pub image_lag_s: f64,
+    /// Whether to work out that lag from the pictures; it is told, and not applied.
+    pub estimate_lag: bool,
+}
+
 /// `[signals]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -83,6 +96,36 @@ pub struct SignalsSpec {
     pub range_min_mm: f64,
     /// Longer readings are beyond the sensor.
     pub range_max_mm: f64,
+    /// The range sensor's own update period; records in between repeat its reading.
+    pub range_update_s: f64,
+    /// Whether the range is corrected for the sensor's cone; never for the method `paper`.
+    pub range_cone: RangeCone,
+    /// What to do about offsets and scales of the accelerometer.
+    pub gravity_calibration: GravityCalibrate,
+}
+
+/// What the range sensor's reading is taken for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RangeCone {
+    /// The distance along the axis.
+    #[default]
+    Off,
+    /// The mean over a cone of 25 degrees that meets the tilted table (docs/signals.md).
+    TiltedPlane,
+}
+
+/// What to do with a gravity calibration from still segments (docs/signals.md).
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GravityCalibrate {
+    /// Nothing.
+    Off,
+    /// Work it out and log it; change nothing.
+    #[default]
+    Report,
+    /// Use it where it is accepted; a note says whether it was.
+    Apply,
 }
 
 impl Default for SignalsSpec {
@@ -94,6 +137,9 @@ impl Default for SignalsSpec {
             range_window_s: 1.0,
             range_min_mm: 30.0,
             range_max_mm: 2000.0, // VL53L0X data sheet: up to 2 m
+            range_update_s: 0.02, // VL53L0X data sheet: 20 ms at its fastest; a slower sensor shows it
+            range_cone: RangeCone::default(),
+            gravity_calibration: GravityCalibrate::default(),
         }
     }
 }

@@ -1,0 +1,76 @@
+//! What was odd about the images that were used: one note per oddity and session.
+
+use model::Problem;
+
+use crate::card::{Place, Remarks, amount, size};
+
+/// Oddities of a session's images.
+#[derive(Debug, Default)]
+pub(super) struct ImageTally {
+    bytes_after: Tally,
+    wrong_extension: Tally,
+    one_time: Tally,
+}
+
+/// The images with one oddity.
+#[derive(Debug, Default)]
+struct Tally {
+    images: usize,
+    bytes: u64,
+    first: String,
+}
+
+impl Tally {
+    fn add(&mut self, file: &str, bytes: u64) {
+        if self.images == 0 {
+            file.clone_into(&mut self.first);
+        }
+        self.images += 1;
+        self.bytes += bytes;
+    }
+}
+
+impl ImageTally {
+    /// Counts an image that was used; `bytes` is the size of its file.
+    pub fn add(&mut self, file: &str, bytes: u64, remarks: Remarks) {
+        if remarks.bytes_after > 0 {
+            self.bytes_after.add(file, remarks.bytes_after);
+        }
+        if remarks.has_wrong_extension {
+            self.wrong_extension.add(file, bytes);
+        }
+        if remarks.has_one_time {
+            self.one_time.add(file, bytes);
+        }
+    }
+
+    /// The notes, each at the first image that it is about.
+    pub fn notes(&self, place: &Place) -> Vec<Problem> {
+        let Self { bytes_after, wrong_extension, one_time } = self;
+        let after = format!(
+            "{} behind the end marker of {} image{}, which are used; the bytes are kept as they are",
+            size(bytes_after.bytes),
+            bytes_after.images,
+            if bytes_after.images == 1 { "" } else { "s" }
+        );
+        let after_remedy = "look at the picture: a device may write its own data there, a damaged card garbage";
+        let extension = format!(
+            "the extension is that of another encoding: {}, read as what the first bytes say",
+            amount(wrong_extension.images, "image", wrong_extension.bytes)
+        );
+        let one = format!(
+            "only the name or only EXIF gives the time of {}, so nothing checks it",
+            amount(one_time.images, "image", one_time.bytes)
+        );
+        let one_remedy = "declare images.time from the one that all images have, if that is how the device writes them";
+        [
+            ("bytes_after_image", bytes_after, after, after_remedy),
+            ("wrong_extension", wrong_extension, extension, "rename them if another program must read them"),
+            ("time_from_one_source", one_time, one, one_remedy),
+        ]
+        .into_iter()
+        .filter(|(_, tally, ..)| tally.images > 0)
+        .map(|(code, tally, fact, remedy)| place.note(code, &tally.first, fact, remedy))
+        .collect()
+    }
+}
