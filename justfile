@@ -28,6 +28,15 @@ lint:
 fmt:
     cargo fmt --all
 
+# Speed against cp, numpy and pandas, and peak memory (docs/performance.md); AIM_BATCH_PYTHON names a Python that has them
+bench-speed *parts:
+    cargo bench -p aim-batch-pipeline -- {{parts}}
+
+# Looks for defects in a parser: packets, csv, cwa, labelme, config_toml, image, mcap, timeline (cargo install cargo-fuzz)
+fuzz target seconds="600":
+    mkdir -p fuzz/found/{{target}}
+    cargo fuzz run --sanitizer none {{target}} fuzz/found/{{target}} fuzz/corpus/{{target}} -- -max_total_time={{seconds}} -max_len=16384 -timeout=10 -rss_limit_mb=2048
+
 # Licences, sources and homes of dependencies (cargo install cargo-deny --locked --version ^0.20)
 deny:
     cargo deny check

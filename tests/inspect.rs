@@ -194,3 +194,43 @@ fn a_real_logger() {
     assert_eq!(clock["samples"], 17_400);
     assert_near(&clock["measured_rate_hz"], 98.86, 0.005);
 }
+
+/// A range sensor's log without times: two lines above the name of its column, one hour long.
+const TIMELESS: &str = "schema_version = 1\nname = \"tof\"\nversion = \"1\"\nmount_pitch_deg = 0.0\n\
+                        [clock]\nanchor = { from = \"session\" }\n\
+                        [range]\nfiles = [\"*.csv\"]\nrate_hz = 50.0\nmm_per_count = 1.0\n\
+                        [range.csv]\ntime = { rows_over_s = 3600.0 }\nrange = \"d\"\nskip_lines = 2\n";
+
+#[test]
+fn a_real_range_sensor() {
+    let Some(set) = real_data("tof_vl53l0x") else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let [card, devices, mcap] = ["card", "devices", "x.mcap"].map(|name| folder.path().join(name));
+    std::fs::create_dir(&card).unwrap();
+    std::fs::create_dir(&devices).unwrap();
+    std::fs::copy(set.join("static_tof_dist_data_1_h.csv"), card.join("tof.csv")).unwrap();
+    std::fs::write(devices.join("tof.toml"), TIMELESS).unwrap();
+    let [card, devices, mcap_text] = [&card, &devices, &mcap].map(|path| path.to_str().unwrap());
+    let output = run([
+        "ingest",
+        card,
+        "-o",
+        mcap_text,
+        "--profile",
+        "tof",
+        "--devices",
+        devices,
+        "--clock-zero",
+        "2024-01-01T00:00:00Z",
+    ]);
+    assert_exit(&output, 3); // there is nothing but a range sensor
+    assert!(stderr(&output).contains("55.62 Hz, the device profile says 50 Hz"), "{}", stderr(&output));
+    let output = inspect(&mcap, &["--json"]);
+    let range = &facts(&output, None)["range"];
+    assert_eq!(range["clock"]["samples"], 200_244);
+    assert_near(&range["clock"]["measured_rate_hz"], 55.6, 0.05);
+    assert_near(&range["mean_mm"], 75.5, 0.05);
+    assert_near(&range["sd_mm"], 2.15, 0.005);
+    assert_eq!((range["least_mm"].as_f64(), range["greatest_mm"].as_f64()), (Some(65.0), Some(84.0)));
+    assert!(range["repeated_samples"].as_u64().unwrap() > 10_000, "{range}");
+}

@@ -5,6 +5,7 @@
 
 mod bad_input;
 mod check;
+mod damage;
 mod documents;
 mod flow;
 mod inspect;

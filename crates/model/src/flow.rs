@@ -25,14 +25,16 @@ impl FrameReason {
     #[must_use]
     pub fn reaches(self) -> FlowStep {
         match self {
-            Self::EmptyImage
+            Self::SessionFailed
+            | Self::EmptyImage
             | Self::NotAnImage
             | Self::DamagedImage
             | Self::WrongSize
             | Self::NoTime
-            | Self::TimesDisagree
-            | Self::AmbiguousTime => FlowStep::Found,
-            Self::NoAcceleration | Self::BadGravity | Self::NoRange | Self::NotBelowHorizon => FlowStep::Readable,
+            | Self::TimesDisagree => FlowStep::Found,
+            Self::AmbiguousTime | Self::NoAcceleration | Self::BadGravity | Self::NoRange | Self::NotBelowHorizon => {
+                FlowStep::Readable
+            }
             Self::Moving => FlowStep::WithPose,
             Self::PitchOutsideTarget => FlowStep::Still,
             Self::Selected => FlowStep::Selected,

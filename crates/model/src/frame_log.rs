@@ -5,6 +5,7 @@ use crate::codes::coded_enum;
 coded_enum! {
     /// The one reason that the ledger gives for every image of a study: the first that applies, in this order.
     FrameReason {
+        SessionFailed = "session_failed": "nothing of its session could be used: the session's status says why",
         EmptyImage = "empty_image": "the file has no bytes",
         NotAnImage = "not_an_image": "the file does not begin like a JPEG or PNG picture, or its header is damaged",
         DamagedImage = "damaged_image": "the picture's data end before their end marker, or hold a block of zeros",

@@ -49,11 +49,11 @@ fn study(frames: &[FrameRow]) -> StudyFlow {
 
 /// What a step means, said of one image.
 fn reaches(frame: &FrameRow, step: FlowStep) -> bool {
-    use FrameReason::{AmbiguousTime, Moving, PitchOutsideTarget, Selected};
+    use FrameReason::{Moving, PitchOutsideTarget, Selected, TimesDisagree};
     let selected = frame.reason == Selected;
     match step {
         FlowStep::Found => true,
-        FlowStep::Readable => frame.reason > AmbiguousTime,
+        FlowStep::Readable => frame.reason > TimesDisagree,
         FlowStep::WithPose => frame.reason.has_pose(),
         FlowStep::Still => frame.reason.has_pose() && frame.reason != Moving,
         FlowStep::Selected => frame.reason.has_pose() && frame.reason != Moving && frame.reason != PitchOutsideTarget,

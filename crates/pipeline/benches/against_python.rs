@@ -26,7 +26,7 @@ pub fn packets() {
     let expected = PACKET_SECONDS / 8 * 1022;
     let mut ours = || {
         let parser = PacketParser::new(&layout, &[], Converter::from(&stream)).unwrap();
-        let mut packets = PacketSamples::new(std::fs::File::open(&file).unwrap(), parser, true);
+        let mut packets = PacketSamples::new(std::fs::File::open(&file).unwrap(), parser);
         assert_eq!(on_a_time_line(|| packets.next_block()), expected as u64);
     };
     let Some(mut python) = Python::start() else { return };

@@ -188,7 +188,6 @@ fn mark(shape: &Shape) -> Result<(String, Mark), String> {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
     use super::*;
-    use proptest::prelude::*;
 
     fn parse_shapes(shapes: &str) -> Result<Marks, MarksError> {
         let text = format!(r#"{{"version": "5.4.1", "shapes": [{shapes}], "imageWidth": 640, "imageHeight": 480}}"#);
@@ -250,18 +249,5 @@ mod tests {
         assert_eq!(error.code(), "marks_of_other_picture");
         assert!(error.to_string().contains("640 x 480") && error.to_string().contains("2592 x 1944"));
         assert!(parse(br#"{"shapes": []}"#, Path::new("m.json"), [2592, 1944]).is_ok(), "the size may be left out");
-    }
-
-    proptest! {
-        #[test]
-        fn no_bytes_make_it_panic(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
-            let _ = parse(&bytes, Path::new("m.json"), [640, 480]);
-        }
-
-        #[test]
-        fn no_json_makes_it_panic(label in ".{0,20}", x in any::<f64>(), kind in "(line|polygon|circle|x)") {
-            let text = serde_json::json!({"shapes": [{"label": label, "points": [[x, 1.0], [2.0, x]], "shape_type": kind}]});
-            let _ = parse(text.to_string().as_bytes(), Path::new("m.json"), [640, 480]);
-        }
     }
 }

@@ -8,7 +8,7 @@ use crate::parse::{
     Converter, CsvLayout, CsvSamples, CwaLayout, CwaSamples, Fault, PacketError, PacketParser, PacketSamples, RawBlock,
     names_zone,
 };
-use crate::profile::{AccelerationStream, CsvFormat, Epoch, PacketLayout, RangeStream, RowTime, Step, TimeUnit};
+use crate::profile::{AccelerationStream, CsvFormat, Epoch, PacketLayout, RangeStream, RowTime, Step};
 use crate::timeline::Clock;
 
 /// Longer steps between samples are gaps: half a second, or three samples of a slow sensor.
@@ -78,7 +78,7 @@ impl Layout {
     fn packets(layout: Option<&PacketLayout>, common: Common<'_>) -> Result<Self, PacketError> {
         let layout = layout.ok_or_else(|| PacketError::Layout("packets, csv or cwa".to_owned()))?;
         let parser = PacketParser::new(layout, common.extra, common.converter.clone())?;
-        let wrap_ns = wrap_ns(layout.stamp.wrap_bits, layout.stamp.unit);
+        let wrap_ns = layout.stamp.wrap_ns();
         Ok(Self::new(FileLayout::Packets(parser), layout.stamp.epoch, wrap_ns, layout.step, &common))
     }
 
@@ -88,7 +88,7 @@ impl Layout {
             Some(_) => Epoch::Unix,
             None => time.epoch,
         };
-        let wrap_ns = wrap_ns(time.wrap_bits, time.unit.unwrap_or_default());
+        let wrap_ns = time.unit.unwrap_or_default().wrap_ns(time.wrap_bits);
         let layout = CsvLayout {
             format,
             time: time.clone(),
@@ -115,6 +115,11 @@ impl Layout {
         self.wrap_ns.is_some()
     }
 
+    /// Whether there are no stamps: times come from a declared rate or duration.
+    pub fn is_counted(&self) -> bool {
+        matches!(&self.files, FileLayout::Csv(csv) if csv.time.column.is_none())
+    }
+
     /// Whether rows are spread evenly over a declared time, so that they must be counted first: over how many seconds.
     pub fn rows_over_s(&self) -> Option<f64> {
         match &self.files {
@@ -122,10 +127,6 @@ impl Layout {
             FileLayout::Packets(_) | FileLayout::Cwa(_) => None,
         }
     }
-}
-
-fn wrap_ns(bits: Option<u32>, unit: TimeUnit) -> Option<i128> {
-    bits.map(|bits| (1_i128 << bits.min(63)) * i128::from(unit.ns()))
 }
 
 /// Streams the packets, or batches of rows, of one file.
@@ -138,10 +139,7 @@ pub(crate) enum Decoder<R: Read> {
 impl<R: Read> Decoder<R> {
     pub fn new(reader: R, layout: &Layout) -> Self {
         match &layout.files {
-            FileLayout::Packets(parser) => {
-                let is_absolute = layout.epoch != Epoch::Boot;
-                Self::Packets(Box::new(PacketSamples::new(reader, parser.clone(), is_absolute)))
-            }
+            FileLayout::Packets(parser) => Self::Packets(Box::new(PacketSamples::new(reader, parser.clone()))),
             FileLayout::Csv(csv) => Self::Csv(Box::new(CsvSamples::new(reader, csv.clone()))),
             FileLayout::Cwa(cwa) => Self::Cwa(Box::new(CwaSamples::new(reader, cwa.clone()))),
         }

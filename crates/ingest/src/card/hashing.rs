@@ -30,6 +30,12 @@ impl Inputs {
         self.sha256.entry(file.name.clone()).or_insert(reason);
     }
 
+    /// Adds what another reader has recorded.
+    pub fn merge(&mut self, other: Self) {
+        self.bytes += other.bytes;
+        self.sha256.extend(other.sha256);
+    }
+
     /// Reads what is left of the file and records its hash.
     pub fn add(&mut self, file: &CardFile, mut reader: HashingReader<'_>) -> IoResult<()> {
         let end = reader.drain();

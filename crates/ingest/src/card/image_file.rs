@@ -41,15 +41,12 @@ pub(crate) fn too_large(file: &CardFile) -> Option<String> {
     (file.bytes > LARGEST_IMAGE_BYTES).then(|| format!("too_large:{}", file.bytes))
 }
 
-/// Reads one image, and hashes it to its end whatever it is, unless it is too large.
+/// The bytes of one image, hashed to the file's end whatever it is, unless it is too large.
 pub(crate) fn read_image(
     file: &CardFile,
-    time: &ImageTime,
-    zone: &TimeZone,
-    camera: &CameraSpec,
     inputs: &mut Inputs,
     progress: &dyn IngestProgress,
-) -> Result<TakenImage, DroppedImage> {
+) -> Result<Vec<u8>, DroppedImage> {
     let dropped = |detail: String| Err(without_header(file, FrameReason::NotAnImage, detail));
     if let Some(reason) = too_large(file) {
         progress.advance(file.bytes);
@@ -71,11 +68,11 @@ pub(crate) fn read_image(
     if bytes.len() as u64 > LARGEST_IMAGE_BYTES {
         return dropped(format!("larger than {LARGEST_IMAGE_BYTES} bytes"));
     }
-    judge(file, bytes, time, zone, camera)
+    Ok(bytes)
 }
 
-/// The first reason that applies, in the order of [`FrameReason`].
-fn judge(
+/// Takes an image, or drops it for the first reason that applies, in the order of [`FrameReason`].
+pub(crate) fn judge_image(
     file: &CardFile,
     bytes: Vec<u8>,
     time: &ImageTime,

@@ -16,7 +16,7 @@ pub use walk::{Card, CardFile};
 
 pub(crate) use decoder::Layout;
 pub(crate) use hashing::{Inputs, open_hashing};
-pub(crate) use image_file::{LARGEST_IMAGE_BYTES, Remarks, TakenImage, read_image, too_large};
+pub(crate) use image_file::{LARGEST_IMAGE_BYTES, Remarks, TakenImage, judge_image, read_image, too_large};
 pub(crate) use place::{Place, amount, size};
 pub(crate) use sensor_files::Anchoring;
 pub(crate) use stream::Stream;

@@ -21,6 +21,11 @@ pub(crate) struct Anchoring<'a> {
 }
 
 impl Anchoring<'_> {
+    /// Whether one time holds for all files.
+    pub fn is_of_session(&self) -> bool {
+        matches!(self.spec.map(|spec| &spec.anchor), Some(Anchor::Session {}))
+    }
+
     /// For one file; none when nothing says so.
     pub fn of_file(&self, file: &CardFile) -> Option<UtcNs> {
         match &self.spec?.anchor {
@@ -40,7 +45,7 @@ pub(crate) fn in_order(
     layout: &Layout,
     anchoring: &Anchoring<'_>,
 ) -> (Vec<CardFile>, Vec<(CardFile, CardFile)>) {
-    let first = |file: &CardFile| (!layout.is_wrapping()).then(|| first_time(file, layout, anchoring));
+    let first = |file: &CardFile| (!layout.is_wrapping()).then(|| first_stamp_ns(file, layout, anchoring));
     files.sort_by_cached_key(|file| (first(file), file.name.clone()));
     let mut kept: Vec<CardFile> = Vec::new();
     let mut twice = Vec::new();
@@ -54,19 +59,20 @@ pub(crate) fn in_order(
     (kept, twice)
 }
 
-fn first_time(file: &CardFile, layout: &Layout, anchoring: &Anchoring<'_>) -> Option<UtcNs> {
+/// The first stamp as the device wrote it, behind the anchor if there is one: the order of files does not depend on what
+/// local time it is.
+fn first_stamp_ns(file: &CardFile, layout: &Layout, anchoring: &Anchoring<'_>) -> Option<i64> {
     let mut decoder = Decoder::new(File::open(&file.path).ok()?, layout);
-    let mut clock = layout.clock(anchoring.zone);
-    clock.anchor = anchoring.of_file(file);
+    let zero_ns = anchoring.of_file(file).map_or(0, |anchor| anchor.0);
     loop {
         let RawBlock { stamps, .. } = decoder.next_block()?;
         let ns = match stamps {
             Stamps::Packet { ns, .. } => Some(ns),
             Stamps::Each(stamps) => stamps.first().copied(),
-            Stamps::Counted { .. } => return clock.anchor,
+            Stamps::Counted { .. } => Some(0),
         };
-        if let Some(time) = ns.and_then(|ns| clock.utc(ns).ok()) {
-            return Some(time);
+        if let Some(ns) = ns {
+            return Some(zero_ns.saturating_add(ns));
         }
     }
 }

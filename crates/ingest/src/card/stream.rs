@@ -23,6 +23,7 @@ pub(crate) struct Stream<'a> {
     stepper: Stepper,
     line: Line,
     at_end: bool,
+    has_opened: bool,
     pub inputs: Inputs,
     pub problems: Vec<Problem>,
 }
@@ -57,6 +58,7 @@ impl<'a> Stream<'a> {
             waiting: files.into(),
             current: None,
             at_end: false,
+            has_opened: false,
             inputs: Inputs::default(),
             problems: Vec::new(),
         };
@@ -86,7 +88,12 @@ impl<'a> Stream<'a> {
 
     /// What the sensor's clock did.
     pub fn finish(self) -> StreamFacts {
-        self.line.finish()
+        let mut facts = self.line.finish();
+        facts.times_declared = self.layout.is_counted();
+        if facts.times_declared && self.layout.rows_over_s().is_none() {
+            facts.measured_rate_hz = None;
+        }
+        facts
     }
 
     fn read_on(&mut self) {
@@ -110,7 +117,11 @@ impl<'a> Stream<'a> {
         let samples = raw.len() as u64;
         match self.stepper.push(raw) {
             Ok(block) => {
-                open.samples += samples;
+                let refused = self.stepper.take_refused();
+                let left_out = refused.as_ref().map_or(0, |(left_out, _)| *left_out);
+                open.unclocked += left_out;
+                open.clock_error = open.clock_error.take().or(refused.map(|(_, error)| error));
+                open.samples += samples - left_out;
                 block.into_iter().for_each(|block| self.line.push(block));
             }
             Err(error) => {
@@ -121,6 +132,11 @@ impl<'a> Stream<'a> {
     }
 
     fn open(&mut self, file: CardFile) {
+        if self.has_opened && self.layout.is_counted() && self.anchoring.is_of_session() {
+            self.refuse_second(&file);
+            return;
+        }
+        self.has_opened = true;
         self.stepper.set_anchor(self.anchoring.of_file(&file));
         #[expect(clippy::cast_precision_loss, reason = "a file has far fewer than 2^53 rows")]
         let rows_per_s = self.layout.rows_over_s().map(|seconds| count_rows(&file, &self.layout) as f64 / seconds);
@@ -162,12 +178,24 @@ impl<'a> Stream<'a> {
         self.problems.push(self.place.problem(fault.code(), file, fault.to_string(), fault.remedy()));
     }
 
-    /// A file that is there twice is hashed, like every input, and not used.
-    fn pass_over(&mut self, file: &CardFile, same_as: &CardFile) {
+    /// Two files without times would lie on top of each other.
+    fn refuse_second(&mut self, file: &CardFile) {
+        self.hash_only(file);
+        let fact = "there are no times in these files, and one anchor for all of them: which comes when cannot be told";
+        let remedy = "join the files, or let [clock] anchor take each one's time from its name";
+        self.problems.push(self.place.problem("samples_without_time", &file.name, fact, remedy));
+    }
+
+    fn hash_only(&mut self, file: &CardFile) {
         match open_hashing(file, self.progress).and_then(|reader| self.inputs.add(file, reader)) {
             Ok(()) => {}
             Err(_) => self.inputs.add_unreadable(file),
         }
+    }
+
+    /// A file that is there twice is hashed, like every input, and not used.
+    fn pass_over(&mut self, file: &CardFile, same_as: &CardFile) {
+        self.hash_only(file);
         let fact = format!("the file is the same as {}, byte for byte; it is used once", same_as.name);
         self.problems.push(self.place.note("duplicate_file", &file.name, fact, "remove one of the two"));
     }

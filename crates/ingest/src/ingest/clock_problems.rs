@@ -16,6 +16,7 @@ pub(super) fn clock_problems(timeline: &Timeline, place: &Place) -> Vec<Problem>
         let Some(facts) = facts else { continue };
         problems.extend(gaps(sensor, facts, place));
         problems.extend(order(sensor, facts, place));
+        problems.extend(misplaced(sensor, facts, place));
         problems.extend(rate(sensor, facts, place));
         problems.extend(jumps(sensor, facts, place));
     }
@@ -49,11 +50,22 @@ fn order(sensor: &str, facts: &StreamFacts, place: &Place) -> Vec<Problem> {
     notes
 }
 
+fn misplaced(sensor: &str, facts: &StreamFacts, place: &Place) -> Option<Problem> {
+    let fact = format!(
+        "{} packets of the {sensor} ({} samples) claim times that fit nothing around them, the first {}; they are left out",
+        facts.misplaced,
+        facts.misplaced_samples,
+        text(facts.first_misplaced?),
+    );
+    Some(place.problem("misplaced_packets", "", fact, "copy the card again; if it stays so, the stamps are damaged"))
+}
+
 fn rate(sensor: &str, facts: &StreamFacts, place: &Place) -> Option<Problem> {
     let measured = facts.measured_rate_hz?;
     let nominal = facts.nominal_rate_hz;
     ((measured / nominal - 1.0).abs() > RATE_TOLERANCE).then(|| {
-        let fact = format!("the {sensor}'s stamps give {measured:.2} Hz, the device profile says {nominal} Hz");
+        let what = if facts.times_declared { "rows over the declared time" } else { "stamps" };
+        let fact = format!("the {sensor}'s {what} give {measured:.2} Hz, the device profile says {nominal} Hz");
         place.note("rate_not_nominal", "", fact, "the stamps are used; correct rate_hz in the device profile")
     })
 }

@@ -49,6 +49,9 @@ pub enum IngestError {
     /// The camera contradicts itself.
     #[error("camera: {0}")]
     Camera(#[from] CameraSpecError),
+    /// There is no thread to read the card with.
+    #[error("cannot start a thread that reads the card: {0}")]
+    Thread(std::io::Error),
     /// The MCAP file cannot be written.
     #[error("cannot write {path}: {source}; check free space and permissions")]
     Write {
@@ -74,6 +77,7 @@ impl IngestError {
             Self::NothingFits { .. } => "card_does_not_fit_profile",
             Self::Profile(_) | Self::Pattern(_) | Self::Layout(_) => "bad_profile",
             Self::Camera(_) => "bad_camera",
+            Self::Thread(_) => "no_thread",
             Self::Write { .. } | Self::Metadata(_) | Self::Key(_) => "mcap_not_written",
         }
     }
@@ -88,6 +92,7 @@ impl IngestError {
             }
             Self::Profile(_) | Self::Pattern(_) | Self::Layout(_) => "correct the device profile (docs/devices.md)",
             Self::Camera(_) => "correct the camera file (docs/devices.md)",
+            Self::Thread(_) => "give --jobs a smaller number, or raise the limit of processes",
             Self::Write { .. } | Self::Metadata(_) | Self::Key(_) => {
                 "check free space and permissions of the work folder"
             }

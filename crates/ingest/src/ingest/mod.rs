@@ -4,6 +4,7 @@ mod clock_problems;
 mod dropped;
 mod error;
 mod image_tally;
+mod read_ahead;
 mod recordings;
 mod run;
 

@@ -7,8 +7,9 @@ use model::{Camera, Problem, UtcNs};
 
 use super::clock_problems::clock_problems;
 use super::image_tally::ImageTally;
+use super::read_ahead::read_ahead;
 use super::{IngestError, SessionSource, dropped, recordings};
-use crate::card::{Anchoring, Card, CardFile, Inputs, Layout, Patterns, Place, Stream, TakenImage, read_image};
+use crate::card::{Anchoring, Card, CardFile, Inputs, Layout, Patterns, Place, Stream, TakenImage, judge_image};
 use crate::key::{self, INGEST_VERSION};
 use crate::mcap_file::metadata::Facts;
 use crate::mcap_file::{Keep, SessionWriter, WriteError};
@@ -125,9 +126,10 @@ impl<'a> Run<'a> {
         self.report_absent("camera", files, fitting.is_empty());
         let mut entries: Vec<ImageEntry> = Vec::new();
         let mut tally = ImageTally::default();
-        for file in &fitting {
+        let progress = self.progress;
+        let inputs = read_ahead(&fitting, progress, |file, bytes| {
             let camera = &source.camera_spec;
-            match read_image(file, time, &source.time_zone, camera, &mut self.inputs, self.progress) {
+            match bytes.and_then(|bytes| judge_image(file, bytes, time, &source.time_zone, camera)) {
                 Ok(TakenImage { entry, encoding, bytes, remarks }) => {
                     tally.add(&entry.file, entry.bytes, remarks);
                     self.writer.image(entry.time, encoding, bytes).map_err(|error| write_error(self.out, error))?;
@@ -135,7 +137,9 @@ impl<'a> Run<'a> {
                 }
                 Err(dropped) => self.dropped.push(dropped),
             }
-        }
+            Ok(())
+        })?;
+        self.inputs.merge(inputs);
         self.counts.images = entries.len() as u64;
         self.counts.dropped_images = self.dropped.len() as u64;
         self.problems.extend(dropped::problems(&self.dropped, self.place));

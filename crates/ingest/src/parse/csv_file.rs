@@ -1,5 +1,6 @@
 //! A CSV file, one sample per row.
 
+use std::borrow::Cow;
 use std::io::Read;
 
 use jiff::fmt::strtime::BrokenDownTime;
@@ -131,7 +132,9 @@ impl<R: Read> CsvSamples<R> {
 
     fn find_columns(&mut self) -> Result<Columns, Fault> {
         for _ in 0..self.layout.format.skip_lines {
-            self.rows.skip_line()?;
+            if !self.rows.skip_line()? {
+                break;
+            }
         }
         let layout = &self.layout;
         if !layout.format.header {
@@ -163,7 +166,8 @@ impl<R: Read> CsvSamples<R> {
         let mut counts = [0.0; 3];
         for ((count, column), name) in counts.iter_mut().zip(&columns.values).zip(&self.layout.values) {
             let field = self.rows.get(*column).ok_or_else(|| format!("the row ends before column '{name}'"))?;
-            *count = number(field).ok_or_else(|| format!("column '{name}': '{}' is not a number", shown(field)))?;
+            *count =
+                self.number(field).ok_or_else(|| format!("column '{name}': '{}' is not a number", shown(field)))?;
         }
         if !counts.iter().all(|count| count.is_finite()) {
             return Ok(false);
@@ -173,11 +177,29 @@ impl<R: Read> CsvSamples<R> {
             column.push(count);
         }
         for (values, column) in batch.extra.iter_mut().zip(&columns.extra) {
-            let value = self.rows.get(*column).and_then(number).unwrap_or(f64::NAN);
+            let value = self.rows.get(*column).and_then(|field| self.number(field)).unwrap_or(f64::NAN);
             #[expect(clippy::cast_possible_truncation, reason = "carried, not used")]
             values.push(value as f32);
         }
         Ok(true)
+    }
+
+    /// A decimal number; NaN for an empty field. None for anything else.
+    fn number(&self, field: &[u8]) -> Option<f64> {
+        let field = field.trim_ascii();
+        if field.is_empty() {
+            return Some(f64::NAN);
+        }
+        fast_float2::parse(&*self.with_point(field)).ok()
+    }
+
+    /// The number with a point where the file has a comma.
+    fn with_point<'f>(&self, field: &'f [u8]) -> Cow<'f, [u8]> {
+        if !self.layout.format.decimal_comma {
+            return Cow::Borrowed(field);
+        }
+        let point = |byte: &u8| if *byte == b',' { b'.' } else { *byte };
+        field.iter().map(point).collect()
     }
 
     fn stamp(&self, column: usize) -> Result<i64, String> {
@@ -189,7 +211,8 @@ impl<R: Read> CsvSamples<R> {
             return civil_ns(field, format).map_err(wrong);
         }
         let power = unit.unwrap_or_default().power_of_ten_ns();
-        decimal::ns(field, power).ok_or_else(|| format!("column '{name}': '{}' is no time", shown(field)))
+        decimal::ns(&self.with_point(field), power)
+            .ok_or_else(|| format!("column '{name}': '{}' is no time", shown(field)))
     }
 
     fn note_bad_row(&mut self, fact: String) {
@@ -206,15 +229,6 @@ fn columns(layout: &CsvLayout, find: impl Fn(&String) -> Result<usize, Fault>) -
         values: layout.values.iter().map(&find).collect::<Result<_, _>>()?,
         extra: layout.extra.iter().map(&find).collect::<Result<_, _>>()?,
     })
-}
-
-/// A decimal number; NaN for an empty field. None for anything else.
-fn number(field: &[u8]) -> Option<f64> {
-    let field = field.trim_ascii();
-    if field.is_empty() {
-        return Some(f64::NAN);
-    }
-    fast_float2::parse(field).ok()
 }
 
 /// Whether a strptime pattern of a time names its zone: by an offset, by seconds since 1970, or by a literal Z at its end.

@@ -65,9 +65,9 @@ impl<R: Read> CsvRows<R> {
         }
     }
 
-    /// Passes over a line, whatever is in it.
-    pub fn skip_line(&mut self) -> Result<(), Fault> {
-        self.next_line().map(|_| ())
+    /// Passes over a line, whatever is in it. False at the end of the file.
+    pub fn skip_line(&mut self) -> Result<bool, Fault> {
+        self.next_line().map(|line| line.is_some())
     }
 
     /// Field `i` of the row.

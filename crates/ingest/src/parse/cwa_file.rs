@@ -4,7 +4,7 @@ use std::io::Read;
 
 use jiff::tz::TimeZone;
 
-use super::cwa::{Block, CwaBlocks, CwaFacts};
+use super::cwa::{BLOCK_BYTES, Block, CwaBlocks, CwaFacts, HEADER_BYTES};
 use super::raw::{RawBlock, Stamps};
 use super::{Converter, Fault};
 
@@ -76,13 +76,20 @@ fn gyroscope(block: &Block, name: &str) -> Vec<f32> {
 
 fn faults(facts: &CwaFacts) -> Vec<Fault> {
     let mut faults = Vec::new();
+    // The block that the file ends in is told by itself.
+    let cut_bytes = facts.truncated.map_or(0, |cut| cut.got as u64);
     if let Some(first) = facts.bad_blocks.iter().min_by_key(|bad| bad.first_offset) {
         faults.push(Fault::BadBlocks {
             blocks: facts.bad_blocks.iter().map(|bad| bad.blocks).sum(),
-            bytes: facts.bytes_lost,
+            bytes: facts.bytes_lost.saturating_sub(cut_bytes),
             first_offset: first.first_offset,
             first: first.first.to_string(),
         });
+    }
+    let told = !facts.bad_blocks.is_empty() || facts.truncated.is_some();
+    if facts.bytes_lost > 0 && !told {
+        let first_offset = (HEADER_BYTES as u64) + facts.blocks * BLOCK_BYTES as u64;
+        faults.push(Fault::LostAlignment { bytes: facts.bytes_lost, places: 1, first_offset });
     }
     if let Some(jump) = facts.first_jumps.first() {
         faults.push(Fault::SequenceJumps {
@@ -93,7 +100,7 @@ fn faults(facts: &CwaFacts) -> Vec<Fault> {
         });
     }
     if let Some(cut) = facts.truncated {
-        let expected = super::cwa::BLOCK_BYTES;
+        let expected = BLOCK_BYTES;
         faults.push(Fault::TruncatedPacket { offset: cut.offset, expected, got: cut.got, samples: 0 });
     }
     if let Some(failure) = &facts.unreadable {

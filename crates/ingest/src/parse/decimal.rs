@@ -1,9 +1,12 @@
 //! Times as numbers, without losing digits: an f64 of today's seconds is 240 ns coarse.
 
 /// Nanoseconds of a decimal number of 10^`power_of_ten_ns` ns, cut to 1 ns. None for anything else than
-/// `digits[.digits]`, and beyond i64.
+/// `digits[.digits]`, and beyond i64. A number with an exponent is as exact as an f64.
 pub(super) fn ns(text: &[u8], power_of_ten_ns: u32) -> Option<i64> {
     let text = text.strip_prefix(b"+").unwrap_or(text);
+    if text.iter().any(|byte| byte.eq_ignore_ascii_case(&b'e')) {
+        return ns_of(fast_float2::parse(text).ok()?, 10_i64.checked_pow(power_of_ten_ns)?);
+    }
     let (whole, fraction) = match text.iter().position(|byte| *byte == b'.') {
         Some(dot) => (&text[..dot], &text[dot + 1..]),
         None => (text, &[][..]),
@@ -55,11 +58,12 @@ mod tests {
         assert_eq!(ns(b"1760676790103992576", 0), Some(1_760_676_790_103_992_576));
         assert_eq!(ns(b"1760676790103.5", 6), Some(1_760_676_790_103_500_000));
         assert_eq!(ns(b"+12.", 3), Some(12_000));
+        assert_eq!(ns(b"1.7487792000e+09", 9), Some(1_748_779_200_000_000_000));
     }
 
     #[test]
     fn what_is_no_time_is_refused() {
-        for text in ["", ".5", "-1", "1e9", "1.2.3", "NaN", "99999999999999999999", "0x10", "1 2"] {
+        for text in ["", ".5", "-1", "1e", "1.2.3", "NaN", "99999999999999999999", "0x10", "1 2"] {
             assert_eq!(ns(text.as_bytes(), 9), None, "{text}");
         }
         for units in [-1.0, f64::NAN, f64::INFINITY, 1e300] {

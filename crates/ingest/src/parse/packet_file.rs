@@ -1,5 +1,6 @@
 //! A file of packets, and what is left of one that is damaged.
 
+use std::cell::Cell;
 use std::io::{ErrorKind, Read};
 
 use super::raw::RawBlock;
@@ -9,23 +10,29 @@ use super::{Fault, PacketParser};
 /// never set, and counts from 1970, is one.
 const EARLIEST_NS: i64 = 1_000_000_000;
 const LATEST_NS: i64 = 4_102_444_800 * 1_000_000_000;
-/// A stamp found while looking for where packets go on is believed when it is within a day of the last one.
-const RESYNC_WITHIN_NS: i64 = 86_400 * 1_000_000_000;
+/// A stamp follows another where it is no more than a day later.
+const FOLLOWS_WITHIN_NS: i64 = 86_400 * 1_000_000_000;
+/// Where packets are looked for, a stamp follows the last one where it is no more than so many steps later, and the one
+/// after it by one step, give or take this part: chance hardly gives two such stamps.
+const SEARCH_STEPS: i64 = 8;
+const STEP_PART: i64 = 8;
 
 /// Streams the packets of a file. A packet counts only when what follows it looks like a packet too, or the file ends:
 /// where bytes are lost inside one, it is left out and the search goes on for the next.
 pub struct PacketSamples<R> {
     reader: R,
     parser: PacketParser,
-    /// Whether stamps count from 1970, so that it can be told which are times.
-    is_absolute: bool,
     bytes: Vec<u8>,
     /// Where in `bytes` the next packet begins.
     next: usize,
     /// Where in the file `bytes` begins.
     offset: u64,
     at_end: bool,
+    /// Stamp of the last packet, and how much later it is than the one before.
     last_ns: Option<i64>,
+    step_ns: Option<i64>,
+    /// Until where in the file the search for the next packet has been in vain, so that no byte is searched twice.
+    barren_until: Cell<u64>,
     damage: Damage,
     end: Option<Fault>,
 }
@@ -42,17 +49,18 @@ struct Damage {
 }
 
 impl<R: Read> PacketSamples<R> {
-    /// The packets in `reader`. `is_absolute`: stamps count from 1970.
-    pub fn new(reader: R, parser: PacketParser, is_absolute: bool) -> Self {
+    /// The packets in `reader`.
+    pub fn new(reader: R, parser: PacketParser) -> Self {
         Self {
             reader,
             parser,
-            is_absolute,
             bytes: Vec::new(),
             next: 0,
             offset: 0,
             at_end: false,
             last_ns: None,
+            step_ns: None,
+            barren_until: Cell::new(0),
             damage: Damage::default(),
             end: None,
         }
@@ -74,10 +82,14 @@ impl<R: Read> PacketSamples<R> {
             }
             match self.is_time(packet) {
                 Err(stamp) => self.pass_bad(stamp),
-                Ok(_) if self.is_cut_inside() => self.resync(self.next + 1),
+                Ok(ns) if self.is_cut_inside(ns) => self.resync(self.next + 1),
+                Ok(ns) if !self.fits(ns) => self.pass_bad(format!("{} s fits nothing around it", ns / 1_000_000_000)),
                 Ok(ns) => {
                     let block = self.parser.parse(packet).ok();
+                    let step = self.last_ns.map(|last| self.parser.later_ns(ns, last)).filter(|step| *step > 0);
+                    self.step_ns = step.or(self.step_ns);
                     self.last_ns = Some(ns);
+                    self.barren_until.set(0);
                     self.next += size;
                     if block.is_some() {
                         return block;
@@ -109,41 +121,79 @@ impl<R: Read> PacketSamples<R> {
     /// The stamp, if it is a time; what it is otherwise.
     fn is_time(&self, packet: &[u8]) -> Result<i64, String> {
         let ns = self.parser.stamp_ns(packet).map_err(|error| error.to_string())?;
-        if self.is_absolute && !(EARLIEST_NS..LATEST_NS).contains(&ns) {
+        if self.parser.is_absolute() && !(EARLIEST_NS..LATEST_NS).contains(&ns) {
             return Err(format!("{} s since 1970 is not between the years 1970 and 2100", ns / 1_000_000_000));
         }
         Ok(ns)
     }
 
-    /// Whether what follows the next packet is no packet, but one begins inside it: bytes were lost there.
-    fn is_cut_inside(&self) -> bool {
+    /// The time that the stamp of a packet at that place would be.
+    fn stamp_at(&self, at: usize) -> Option<i64> {
+        let ns = self.bytes.get(at..).and_then(|rest| self.parser.known_stamp_ns(rest))?;
+        (!self.parser.is_absolute() || (EARLIEST_NS..LATEST_NS).contains(&ns)).then_some(ns)
+    }
+
+    /// Where the packet after the next one begins.
+    fn following(&self) -> usize {
+        self.next + self.parser.packet_bytes()
+    }
+
+    /// Whether a stamp follows the last one, or the next one follows it: one alone is damaged.
+    fn fits(&self, ns: i64) -> bool {
+        let follows = |last: i64, ns: i64| (0..=FOLLOWS_WITHIN_NS).contains(&self.parser.later_ns(ns, last));
+        let before = self.last_ns.is_none_or(|last| follows(last, ns));
+        before || self.stamp_at(self.following()).is_some_and(|next| follows(ns, next))
+    }
+
+    /// Whether what follows the next packet is no packet, but one begins inside it, or between the two: bytes were lost.
+    fn is_cut_inside(&self, ns: i64) -> bool {
         let size = self.parser.packet_bytes();
-        let Some(following) = self.bytes.get(self.next + size..).filter(|rest| rest.len() >= size) else {
+        let following = self.bytes.get(self.following()..).unwrap_or_default();
+        let follows = |next_ns| (0..=self.search_reach_ns()).contains(&self.parser.later_ns(next_ns, ns));
+        let is_end = following.len() < self.parser.header_bytes().max(1);
+        if is_end || following.iter().take(size).all(|byte| *byte == 0) {
             return false;
-        };
-        let looks_right = self.is_time(following).is_ok() || following[..size].iter().all(|byte| *byte == 0);
-        !looks_right && self.find_packet(self.next + 1).is_some_and(|found| found % size != self.next % size)
+        }
+        if self.stamp_at(self.following()).is_some_and(follows) {
+            return false;
+        }
+        self.find_packet(self.next + 1, Some(ns)).is_some_and(|found| found % size != self.next % size)
+    }
+
+    /// How much later a stamp may be that is looked for.
+    fn search_reach_ns(&self) -> i64 {
+        self.step_ns.map_or(FOLLOWS_WITHIN_NS, |step| step.saturating_mul(SEARCH_STEPS).min(FOLLOWS_WITHIN_NS))
     }
 
     /// Where in `bytes` a packet begins, at `from` or later: its stamp and the next one's follow on the last one believed.
-    fn find_packet(&self, from: usize) -> Option<usize> {
-        if !self.is_absolute {
-            return None;
-        }
+    fn find_packet(&self, from: usize, last_ns: Option<i64>) -> Option<usize> {
         let size = self.parser.packet_bytes();
-        let follows = |at: usize, last: Option<i64>| {
-            let ns = self.bytes.get(at..at + size).and_then(|packet| self.is_time(packet).ok())?;
-            last.is_none_or(|last| (0..=RESYNC_WITHIN_NS).contains(&(ns - last))).then_some(ns)
+        let steps_ns = self.step_ns.map_or(1..=FOLLOWS_WITHIN_NS, |step| {
+            let part = step / STEP_PART;
+            step - part..=step.saturating_add(part)
+        });
+        let is_packet = |at: usize| {
+            let follows_last = |ns: &i64| {
+                last_ns.is_none_or(|last| (0..=self.search_reach_ns()).contains(&self.parser.later_ns(*ns, last)))
+            };
+            let Some(ns) = self.stamp_at(at).filter(follows_last) else { return false };
+            let next = self.stamp_at(at + size);
+            next.is_some_and(|next| steps_ns.contains(&self.parser.later_ns(next, ns))) || at + size == self.bytes.len()
         };
-        (from..self.bytes.len().saturating_sub(size)).find(|at| {
-            let Some(ns) = follows(*at, self.last_ns) else { return false };
-            follows(at + size, Some(ns)).is_some_and(|next| next > ns) || (self.at_end && at + size == self.bytes.len())
-        })
+        let barren = usize::try_from(self.barren_until.get().saturating_sub(self.offset)).unwrap_or(usize::MAX);
+        let end = (self.bytes.len() + 1).saturating_sub(if self.at_end { size } else { 2 * size });
+        let found = (from.max(barren)..end).find(|at| is_packet(*at));
+        if found.is_none() {
+            self.barren_until.set(self.barren_until.get().max(self.offset + end as u64));
+        }
+        found
     }
 
     fn pass_bad(&mut self, stamp: String) {
         let size = self.parser.packet_bytes();
-        if let Some(found) = self.find_packet(self.next + 1).filter(|found| found % size != self.next % size) {
+        if let Some(found) =
+            self.find_packet(self.next + 1, self.last_ns).filter(|found| found % size != self.next % size)
+        {
             self.skip_to(found);
             return;
         }
@@ -153,7 +203,7 @@ impl<R: Read> PacketSamples<R> {
     }
 
     fn resync(&mut self, from: usize) {
-        let found = self.find_packet(from).unwrap_or(self.next + self.parser.packet_bytes());
+        let found = self.find_packet(from, self.last_ns).unwrap_or(self.next + self.parser.packet_bytes());
         self.skip_to(found);
     }
 

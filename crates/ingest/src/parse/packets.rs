@@ -1,9 +1,9 @@
 //! One binary packet: a header with a stamp, then the samples of all channels.
 
 use super::raw::{RawBlock, Stamps};
-use super::scalar::{read_column, read_one, read_whole};
+use super::scalar::{read_column, read_float, read_one, read_whole};
 use super::{Converter, decimal};
-use crate::profile::{Endian, PacketLayout, SampleOrder, Scalar, StampAt};
+use crate::profile::{Endian, Epoch, PacketLayout, SampleOrder, Scalar, StampAt};
 
 /// Parses packets of one layout.
 #[derive(Debug, Clone)]
@@ -12,6 +12,10 @@ pub struct PacketParser {
     header_bytes: usize,
     stamp: Field,
     unit_ns: i64,
+    /// Whether stamps count from 1970.
+    is_absolute: bool,
+    /// The counter starts anew after so many ns.
+    wrap_ns: Option<i64>,
     at_sample: i32,
     sequence: Option<Field>,
     sample_type: Scalar,
@@ -76,6 +80,8 @@ impl PacketParser {
             header_bytes,
             stamp: field(layout, "stamp").ok_or_else(|| absent("stamp"))?,
             unit_ns: layout.stamp.unit.ns(),
+            is_absolute: layout.stamp.epoch != Epoch::Boot,
+            wrap_ns: layout.stamp.wrap_ns().and_then(|ns| i64::try_from(ns).ok()),
             at_sample: i32::try_from(at_sample).map_err(|_| absent("a possible size"))?,
             sequence: field(layout, "sequence"),
             sample_type: layout.sample_type,
@@ -99,6 +105,17 @@ impl PacketParser {
     #[must_use]
     pub fn header_bytes(&self) -> usize {
         self.header_bytes
+    }
+
+    /// Whether stamps count from 1970, so that it can be told which are times.
+    pub(super) fn is_absolute(&self) -> bool {
+        self.is_absolute
+    }
+
+    /// How much later one stamp is than another; of a counter that wraps, the way forward.
+    pub(super) fn later_ns(&self, ns: i64, than_ns: i64) -> i64 {
+        let later = ns.saturating_sub(than_ns);
+        self.wrap_ns.map_or(later, |wrap| later.rem_euclid(wrap))
     }
 
     /// The samples of one packet. Of a packet that is cut off, those of which all channels are there.
@@ -139,12 +156,20 @@ impl PacketParser {
     /// [`PacketError::Stamp`] when it is no time.
     pub fn stamp_ns(&self, packet: &[u8]) -> Result<i64, PacketError> {
         let layout = (self.stamp.scalar, self.endian);
+        let text = || PacketError::Stamp(read_one(packet, layout, self.stamp.offset).to_string());
+        self.known_stamp_ns(packet).ok_or_else(text)
+    }
+
+    /// The same, for those who try many places.
+    pub(super) fn known_stamp_ns(&self, packet: &[u8]) -> Option<i64> {
         let ns = match self.whole(packet, self.stamp) {
             Some(units) => units.checked_mul(self.unit_ns),
-            None => decimal::ns_of(read_one(packet, layout, self.stamp.offset), self.unit_ns),
+            None => {
+                let units = read_float(packet, (self.stamp.scalar, self.endian), self.stamp.offset);
+                decimal::ns_of(units, self.unit_ns)
+            }
         };
         ns.filter(|ns| *ns >= 0)
-            .ok_or_else(|| PacketError::Stamp(read_one(packet, layout, self.stamp.offset).to_string()))
     }
 
     fn whole(&self, packet: &[u8], field: Field) -> Option<i64> {

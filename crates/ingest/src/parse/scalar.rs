@@ -38,6 +38,19 @@ pub(super) fn read_one(bytes: &[u8], layout: (Scalar, Endian), offset: usize) ->
     one.first().copied().unwrap_or(f64::NAN)
 }
 
+/// The floating-point number at `offset`; NaN beyond the end, and for whole numbers.
+pub(super) fn read_float(bytes: &[u8], (scalar, endian): (Scalar, Endian), offset: usize) -> f64 {
+    let rest = bytes.get(offset..).unwrap_or_default();
+    let value = match (scalar, endian) {
+        (Scalar::F32, Endian::Little) => rest.first_chunk().map(|b| f64::from(f32::from_le_bytes(*b))),
+        (Scalar::F32, Endian::Big) => rest.first_chunk().map(|b| f64::from(f32::from_be_bytes(*b))),
+        (Scalar::F64, Endian::Little) => rest.first_chunk().map(|b| f64::from_le_bytes(*b)),
+        (Scalar::F64, Endian::Big) => rest.first_chunk().map(|b| f64::from_be_bytes(*b)),
+        _ => None,
+    };
+    value.unwrap_or(f64::NAN)
+}
+
 /// The whole number at `offset`, exactly. None beyond the end, beyond i64, and for floating-point types.
 pub(super) fn read_whole(bytes: &[u8], (scalar, endian): (Scalar, Endian), offset: usize) -> Option<i64> {
     let field = bytes.get(offset..)?.get(..scalar.bytes())?;

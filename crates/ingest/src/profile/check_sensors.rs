@@ -1,7 +1,7 @@
 //! Whether what a profile says of its sensors makes sense.
 
 use super::check::{Wrong, check_files, check_positive, wrong};
-use super::{Anchor, Axis, Epoch, PacketLayout, Profile, RowTime, Scalar};
+use super::{Anchor, Axis, CsvFormat, Epoch, PacketLayout, Profile, RowTime, Scalar};
 use crate::parse::image_time;
 
 /// A packet is read whole; this keeps a mistyped `samples` from asking for all memory.
@@ -18,14 +18,14 @@ pub(super) fn check(profile: &Profile) -> Result<(), Wrong> {
             return wrong("acceleration.zero_g_counts", "not finite numbers", remedy);
         }
         check_axes(&stream.axes)?;
-        let csv = stream.csv.as_ref().map(|csv| (csv.delimiter, &csv.time));
+        let csv = stream.csv.as_ref().map(|csv| (csv.format(), &csv.time));
         check_one("acceleration", [stream.packets.is_some(), csv.is_some(), stream.cwa.is_some()])?;
         check_layouts("acceleration", profile, (stream.packets.as_ref(), &["x", "y", "z"]), &stream.extra, csv)?;
     }
     if let Some(stream) = &profile.range {
         check_stream("range", &stream.files, stream.rate_hz, stream.gap_s)?;
         check_positive("range.mm_per_count", stream.mm_per_count)?;
-        let csv = stream.csv.as_ref().map(|csv| (csv.delimiter, &csv.time));
+        let csv = stream.csv.as_ref().map(|csv| (csv.format(), &csv.time));
         check_one("range", [stream.packets.is_some(), csv.is_some(), false])?;
         check_layouts("range", profile, (stream.packets.as_ref(), &["range"]), &stream.extra, csv)?;
     }
@@ -65,7 +65,7 @@ fn check_layouts(
     profile: &Profile,
     (packets, needed): (Option<&PacketLayout>, &[&str]),
     extra: &[String],
-    csv: Option<(char, &RowTime)>,
+    csv: Option<(CsvFormat, &RowTime)>,
 ) -> Result<(), Wrong> {
     if let Some(layout) = packets {
         let key = format!("{stream}.packets");
@@ -74,8 +74,13 @@ fn check_layouts(
         check_wrap(&format!("{key}.stamp.wrap_bits"), layout.stamp.wrap_bits)?;
         check_anchor(&format!("{key}.stamp.epoch"), layout.stamp.epoch, profile)?;
     }
-    let Some((delimiter, time)) = csv else { return Ok(()) };
+    let Some((format, time)) = csv else { return Ok(()) };
     let key = format!("{stream}.csv");
+    if format.decimal_comma && format.delimiter == ',' {
+        let fact = "the comma is both delimiter and decimal comma";
+        return wrong(format!("{key}.delimiter"), fact, "give the delimiter that the file has, such as \";\"");
+    }
+    let delimiter = format.delimiter;
     if !delimiter.is_ascii() || matches!(delimiter, '"' | '\n' | '\r') {
         return wrong(format!("{key}.delimiter"), "not a delimiter", "give one ASCII character");
     }

@@ -29,6 +29,12 @@ impl TimeUnit {
         }
     }
 
+    /// After how many ns a counter of so many bits starts anew.
+    #[must_use]
+    pub fn wrap_ns(self, bits: Option<u32>) -> Option<i128> {
+        bits.map(|bits| (1_i128 << bits.min(63)) * i128::from(self.ns()))
+    }
+
     /// Nanoseconds in one unit.
     #[must_use]
     pub fn ns(self) -> i64 {

@@ -13,11 +13,13 @@ pub struct CsvFormat {
     pub skip_lines: u32,
     /// Whether there is a line of column names; without one, columns are called `#1`, `#2` and so on.
     pub header: bool,
+    /// Whether numbers have a comma where others have a point.
+    pub decimal_comma: bool,
 }
 
 impl Default for CsvFormat {
     fn default() -> Self {
-        Self { delimiter: comma(), skip_lines: 0, header: yes() }
+        Self { delimiter: comma(), skip_lines: 0, header: yes(), decimal_comma: false }
     }
 }
 
@@ -76,6 +78,9 @@ pub struct AccelerationColumns {
     /// Whether there is a line of column names; without one, columns are called `#1`, `#2` and so on.
     #[serde(default = "yes")]
     pub header: bool,
+    /// Whether numbers have a comma where others have a point.
+    #[serde(default)]
+    pub decimal_comma: bool,
 }
 
 /// Columns of a range sensor's CSV file.
@@ -95,13 +100,17 @@ pub struct RangeColumns {
     /// Whether there is a line of column names; without one, columns are called `#1`, `#2` and so on.
     #[serde(default = "yes")]
     pub header: bool,
+    /// Whether numbers have a comma where others have a point.
+    #[serde(default)]
+    pub decimal_comma: bool,
 }
 
 impl AccelerationColumns {
     /// What the file looks like.
     #[must_use]
     pub fn format(&self) -> CsvFormat {
-        CsvFormat { delimiter: self.delimiter, skip_lines: self.skip_lines, header: self.header }
+        let Self { delimiter, skip_lines, header, decimal_comma, .. } = *self;
+        CsvFormat { delimiter, skip_lines, header, decimal_comma }
     }
 }
 
@@ -109,6 +118,7 @@ impl RangeColumns {
     /// What the file looks like.
     #[must_use]
     pub fn format(&self) -> CsvFormat {
-        CsvFormat { delimiter: self.delimiter, skip_lines: self.skip_lines, header: self.header }
+        let Self { delimiter, skip_lines, header, decimal_comma, .. } = *self;
+        CsvFormat { delimiter, skip_lines, header, decimal_comma }
     }
 }

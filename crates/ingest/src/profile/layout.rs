@@ -126,6 +126,14 @@ pub struct PacketStamp {
     pub wrap_bits: Option<u32>,
 }
 
+impl PacketStamp {
+    /// After how many ns the counter starts anew, if it does.
+    #[must_use]
+    pub fn wrap_ns(&self) -> Option<i128> {
+        self.unit.wrap_ns(self.wrap_bits)
+    }
+}
+
 /// Which moment of a packet its stamp is.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

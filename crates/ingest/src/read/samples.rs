@@ -138,6 +138,10 @@ impl<S: Sensor> Open<S> {
         if !samples.is_sorted_by_key(|(time, _)| *time) {
             samples.sort_by_key(|(time, _)| *time);
         }
+        if samples.first().is_some_and(|(time, _)| *time < at.start) {
+            // Earlier samples of other chunks may be out already.
+            return Err(Damage::Unexpected { expected: "chunk that begins when the index says", offset: at.offset });
+        }
         Ok((!samples.is_empty()).then_some(Self { offset: at.offset, samples, next: 0 }))
     }
 

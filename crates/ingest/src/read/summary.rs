@@ -68,6 +68,7 @@ impl Index {
             }
             Ok(())
         })?;
+        index.check_places()?;
         let mut records = Records::new();
         for (offset, length) in metadata_at {
             let bytes = read_at(file, file_bytes, "metadata record", offset, length)?;
@@ -88,6 +89,7 @@ impl Index {
         let mut names: Vec<String> =
             self.topics.values().filter_map(|topic| topic.strip_prefix(prefix)).map(str::to_owned).collect();
         names.sort();
+        names.dedup(); // channels may share a topic
         names
     }
 
@@ -95,6 +97,16 @@ impl Index {
     pub fn chunks_of<'i>(&'i self, topics: &'i [&'i str]) -> impl Iterator<Item = &'i ChunkAt> {
         let holds = |channel: &u16| self.topic(*channel).is_some_and(|topic| topics.contains(&topic));
         self.chunks.iter().filter(move |chunk| chunk.channels.iter().any(holds))
+    }
+
+    /// No byte of the file is in two chunks: what is read is bounded by the file.
+    fn check_places(&self) -> Result<(), Damage> {
+        let mut places: Vec<(u64, u64)> = self.chunks.iter().map(|chunk| (chunk.offset, chunk.bytes)).collect();
+        places.sort_unstable();
+        match places.windows(2).find(|pair| pair[0].0 + pair[0].1 > pair[1].0) {
+            Some(pair) => Err(Damage::Unexpected { expected: "chunk of its own", offset: pair[1].0 }),
+            None => Ok(()),
+        }
     }
 
     /// The chunks of a sensor, by the time of their first message.

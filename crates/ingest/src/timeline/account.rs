@@ -11,6 +11,8 @@ pub(super) struct Account {
     pub facts: StreamFacts,
     /// Last time and packet number of the stretch.
     last: Option<(UtcNs, Option<u32>)>,
+    /// Listed gaps before this one are of earlier stretches, and say nothing of what was recorded since.
+    first_gap: usize,
     /// The clock was set back before the next block.
     is_set_back: bool,
     steps: u64,
@@ -20,7 +22,7 @@ pub(super) struct Account {
 impl Account {
     pub fn new(nominal_rate_hz: f64, gap_s: f64) -> Self {
         let facts = StreamFacts { nominal_rate_hz, gap_s, ..StreamFacts::default() };
-        Self { facts, last: None, is_set_back: false, steps: 0, steps_s: 0.0 }
+        Self { facts, last: None, first_gap: 0, is_set_back: false, steps: 0, steps_s: 0.0 }
     }
 
     /// Last time of the stretch.
@@ -33,12 +35,18 @@ impl Account {
         self.is_set_back = true;
     }
 
-    /// Whether nothing that was accounted for overlaps these times: they lie after it, or in a listed gap.
+    /// Whether nothing that was accounted for overlaps these times: they lie after it, before it, or in a listed gap of the
+    /// stretch.
     pub fn has_hole(&self, begin: UtcNs, end: UtcNs) -> bool {
         let is_after = self.newest().is_none_or(|newest| newest < begin);
         let is_before = self.facts.stretches.iter().all(|stretch| end < stretch.from);
-        let in_gap = |gap: &Span| gap.from < begin && end < gap.to;
-        is_after || is_before || self.facts.listed_gaps.iter().any(in_gap)
+        is_after || is_before || self.gap_around(begin, end).is_some()
+    }
+
+    /// The listed gap of the stretch in which these times lie.
+    fn gap_around(&self, begin: UtcNs, end: UtcNs) -> Option<usize> {
+        let within = |i: &usize| self.facts.listed_gaps[*i].from < begin && end < self.facts.listed_gaps[*i].to;
+        (self.first_gap..self.facts.listed_gaps.len()).find(within)
     }
 
     /// The next block in order of time.
@@ -48,25 +56,38 @@ impl Account {
             Some((last, sequence)) => self.between(last, sequence, block),
             None => self.begin_stretch(begin),
         }
-        self.steps_within(&block.times);
         self.cover(block, end);
+        self.steps_within(&block.times);
         self.last = Some((end, block.sequence));
     }
 
     /// A block that comes too late to be put in order, in a hole.
     pub fn add_late(&mut self, block: &Block) {
         let (begin, end) = (block.times.first(), block.times.last());
-        let within = |gap: &Span| gap.from < begin && end < gap.to;
-        if let Some(i) = self.facts.listed_gaps.iter().position(within) {
+        if let Some(i) = self.gap_around(begin, end) {
             let gap = self.facts.listed_gaps.remove(i);
             self.facts.gaps -= 1;
             self.facts.gaps_total_s -= gap.seconds();
             for part in [Span { from: gap.from, to: begin }, Span { from: end, to: gap.to }] {
                 self.step(part);
             }
+        } else if let Some(first) = self.facts.stretches.iter_mut().min_by_key(|stretch| stretch.from)
+            && begin < first.from
+        {
+            let before = Span { from: end, to: first.from };
+            first.from = begin;
+            self.step(before);
         }
+        self.cover_span(begin, end);
         self.steps_within(&block.times);
         self.facts.samples += block.times.len() as u64;
+    }
+
+    /// A block whose time fits nothing around it.
+    pub fn leave_out(&mut self, block: &Block) {
+        self.facts.misplaced += 1;
+        self.facts.misplaced_samples += block.times.len() as u64;
+        self.facts.first_misplaced.get_or_insert(block.times.first());
     }
 
     pub fn finish(mut self) -> StreamFacts {
@@ -96,8 +117,26 @@ impl Account {
         }
     }
 
+    /// Samples from there to there, of the current stretch.
+    fn cover_span(&mut self, from: UtcNs, to: UtcNs) {
+        let (stretch, gap_s) = (self.facts.jumps, self.facts.gap_s);
+        let is_full = self.facts.covered.len() >= LISTED;
+        match self.facts.covered.last_mut() {
+            Some((of, last)) if (*of == stretch && from.seconds_since(last.to) <= gap_s && from >= last.from) => {
+                last.to = last.to.max(to);
+            }
+            // Beyond the list's end the last span grows, so that nothing that exists twice passes for unique.
+            Some((_, last)) if is_full => {
+                last.from = last.from.min(from);
+                last.to = last.to.max(to);
+            }
+            _ => self.facts.covered.push((stretch, Span { from, to })),
+        }
+    }
+
     /// Stretches beyond the list's end grow its last one, so that nothing that exists twice passes for unique.
     fn begin_stretch(&mut self, begin: UtcNs) {
+        self.first_gap = self.facts.listed_gaps.len();
         if self.facts.stretches.len() < LISTED {
             self.facts.stretches.push(Span { from: begin, to: begin });
         } else if let Some(last) = self.facts.stretches.last_mut() {
@@ -107,6 +146,7 @@ impl Account {
 
     fn cover(&mut self, block: &Block, end: UtcNs) {
         self.facts.samples += block.times.len() as u64;
+        self.cover_span(block.times.first(), end);
         if let Some(stretch) = self.facts.stretches.last_mut() {
             stretch.to = stretch.to.max(end);
         }

@@ -15,7 +15,7 @@ pub struct Block {
     pub extra: Vec<Vec<f32>>,
 }
 
-/// Times of the samples of a block; never empty.
+/// Times of the samples of a block.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Times {
     /// The first one, and so many ns from each to the next.
@@ -32,6 +32,12 @@ pub enum Times {
 }
 
 impl Times {
+    /// Whether there are none: never, as a parser makes them.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// How many.
     pub fn len(&self) -> usize {
         match self {

@@ -9,6 +9,9 @@ use crate::profile::Epoch;
 /// Local time is resolved anew where it enters another stretch of this length: zones change at full quarters of an hour.
 const QUARTER_NS: i64 = 900 * 1_000_000_000;
 
+/// A counter that wraps may go back by this part of its turn without having started anew.
+const LATE_PART: i128 = 8;
+
 /// Why a stamp is no time.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ClockError {
@@ -33,12 +36,14 @@ pub struct Clock {
     epoch: Epoch,
     zone: TimeZone,
     /// UTC at which a boot-relative clock was zero.
-    pub anchor: Option<UtcNs>,
+    anchor: Option<UtcNs>,
     /// The counter starts anew after so many ns.
     wrap_ns: Option<i128>,
     /// Unwrapped stamp of the last one.
     last_unwrapped: Option<i128>,
     last: Option<UtcNs>,
+    /// Why the first stamp of a clock whose offset stays is no time.
+    refused: Option<ClockError>,
     /// Quarter of an hour of local time, and its offset, where it has one only.
     known: Option<(i64, i64)>,
 }
@@ -47,7 +52,21 @@ impl Clock {
     /// A clock. `wrap_ns`: the counter starts anew after so many ns. `zone`: for local time.
     #[must_use]
     pub fn new(epoch: Epoch, wrap_ns: Option<i128>, zone: TimeZone) -> Self {
-        Self { epoch, zone, anchor: None, wrap_ns, last_unwrapped: None, last: None, known: None }
+        Self { epoch, zone, anchor: None, wrap_ns, last_unwrapped: None, last: None, refused: None, known: None }
+    }
+
+    /// UTC at which a boot-relative clock was zero.
+    #[must_use]
+    pub fn anchor(&self) -> Option<UtcNs> {
+        self.anchor
+    }
+
+    /// The same, for what comes from now on. Another anchor is another start of the device: its counter starts anew.
+    pub fn set_anchor(&mut self, anchor: Option<UtcNs>) {
+        if self.anchor != anchor {
+            self.last_unwrapped = None;
+        }
+        self.anchor = anchor;
     }
 
     /// UTC of a stamp.
@@ -59,8 +78,8 @@ impl Clock {
         let utc = match self.epoch {
             Epoch::Unix => in_range(unwrapped)?,
             Epoch::Boot => in_range(i128::from(self.anchor.ok_or(ClockError::NoAnchor)?.0) + unwrapped)?,
-            Epoch::Local => self.from_local(in_range(unwrapped)?)?,
-            Epoch::LocalAtStart => self.from_local_at_start(in_range(unwrapped)?)?,
+            Epoch::Local => self.utc_of_local(in_range(unwrapped)?)?,
+            Epoch::LocalAtStart => self.utc_of_local_at_start(in_range(unwrapped)?)?,
         };
         self.last_unwrapped = Some(unwrapped);
         self.last = Some(utc);
@@ -72,26 +91,34 @@ impl Clock {
         let stamp = i128::from(stamp_ns);
         match (self.wrap_ns, self.last_unwrapped) {
             (Some(wrap), Some(last)) => {
-                let turns = (last - stamp + wrap / 2).div_euclid(wrap).max(0);
+                // A packet that was written late is a little behind; what is further back has begun anew.
+                let turns = (last - stamp - wrap / LATE_PART + wrap - 1).div_euclid(wrap).max(0);
                 stamp + turns * wrap
             }
             _ => stamp,
         }
     }
 
-    fn from_local_at_start(&mut self, local: UtcNs) -> Result<UtcNs, ClockError> {
+    fn utc_of_local_at_start(&mut self, local: UtcNs) -> Result<UtcNs, ClockError> {
         match self.known {
             Some((_, offset_ns)) => in_range(i128::from(local.0) - i128::from(offset_ns)),
             None => {
-                let utc = self.from_local(local)?;
-                self.known = Some((0, local.0 - utc.0));
-                Ok(utc)
+                // By the first stamp or not at all: a later one may be under another offset.
+                if let Some(error) = &self.refused {
+                    return Err(error.clone());
+                }
+                let utc = self.utc_of_local(local);
+                match &utc {
+                    Ok(utc) => self.known = Some((0, local.0 - utc.0)),
+                    Err(error) => self.refused = Some(error.clone()),
+                }
+                utc
             }
         }
     }
 
     /// `local`: ns since 1970-01-01 00:00 on the wall clock.
-    fn from_local(&mut self, local: UtcNs) -> Result<UtcNs, ClockError> {
+    fn utc_of_local(&mut self, local: UtcNs) -> Result<UtcNs, ClockError> {
         let quarter = local.0.div_euclid(QUARTER_NS);
         if let Some((known, offset_ns)) = self.known
             && known == quarter
@@ -111,7 +138,7 @@ impl Clock {
                 let second = in_range(i128::from(local.0) - i128::from(offset_ns(after)))?;
                 match self.last {
                     None => Err(ClockError::Twice(wall.to_string())),
-                    Some(last) if first < last => Ok(second),
+                    Some(last) if second.0.abs_diff(last.0) < first.0.abs_diff(last.0) => Ok(second),
                     Some(_) => Ok(first),
                 }
             }
@@ -156,13 +183,48 @@ mod tests {
         let wrap_ns = (1_i128 << 32) * 1_000_000;
         let mut clock = Clock::new(Epoch::Boot, Some(wrap_ns), TimeZone::UTC);
         assert_eq!(clock.utc(5), Err(ClockError::NoAnchor));
-        clock.anchor = Some(UtcNs(1_000 * S));
+        clock.set_anchor(Some(UtcNs(1_000 * S)));
         let late_ms = i64::from(u32::MAX) - 999;
         let before = clock.utc(late_ms * 1_000_000).unwrap();
         let after = clock.utc(1_000 * 1_000_000).unwrap();
         assert_eq!(after.0 - before.0, 2 * S);
         // A packet from before that comes late is still of the turn before.
         assert_eq!(clock.utc((late_ms + 500) * 1_000_000).unwrap().0 - before.0, S / 2);
+    }
+
+    #[test]
+    fn a_gap_of_most_of_a_turn_is_a_gap() {
+        let mut clock = Clock::new(Epoch::Boot, Some((1_i128 << 32) * 1000), TimeZone::UTC);
+        clock.set_anchor(Some(UtcNs(0)));
+        let turn_s = (1_i64 << 32) / 1_000_000;
+        clock.utc(80 * 60 * S % (turn_s * S)).unwrap(); // before the counter has started anew
+        let first = clock.utc(4000 * S).unwrap();
+        let after_gap = clock.utc((4000 + 2400 - turn_s) * S).unwrap();
+        assert!((after_gap.seconds_since(first) - 2400.0).abs() < 1.0, "{}", after_gap.seconds_since(first));
+    }
+
+    #[test]
+    fn another_anchor_is_another_start() {
+        let mut clock = Clock::new(Epoch::Boot, Some((1_i128 << 32) * 1000), TimeZone::UTC);
+        clock.set_anchor(Some(UtcNs(0)));
+        clock.utc(3000 * S).unwrap();
+        clock.set_anchor(Some(UtcNs(10_000 * S)));
+        assert_eq!(clock.utc(S).unwrap(), UtcNs(10_001 * S));
+    }
+
+    #[test]
+    fn a_late_stamp_in_the_hour_that_exists_twice_is_still_of_the_first() {
+        let mut clock = Clock::new(Epoch::Local, None, chicago());
+        clock.utc(local("2026-11-01T00:59:59")).unwrap();
+        clock.utc(local("2026-11-01T01:10:00.2")).unwrap();
+        assert_eq!(clock.utc(local("2026-11-01T01:10:00.1")).unwrap(), utc("2026-11-01T06:10:00.1Z"));
+    }
+
+    #[test]
+    fn a_recording_that_starts_in_that_hour_is_refused_whole_where_its_offset_stays() {
+        let mut clock = Clock::new(Epoch::LocalAtStart, None, chicago());
+        assert!(matches!(clock.utc(local("2026-11-01T01:10:00")), Err(ClockError::Twice(_))));
+        assert!(matches!(clock.utc(local("2026-11-01T03:00:00")), Err(ClockError::Twice(_))));
     }
 
     #[test]

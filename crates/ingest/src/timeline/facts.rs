@@ -82,6 +82,12 @@ pub struct StreamFacts {
     pub listed_gaps: Vec<Span>,
     /// Packets, or batches of rows, that came after later ones, and were put in order.
     pub reordered: u64,
+    /// Packets, or rows, whose time fits nothing around them: a damaged stamp. They are left out.
+    pub misplaced: u64,
+    /// Samples in them.
+    pub misplaced_samples: u64,
+    /// The time that the first one claims.
+    pub first_misplaced: Option<UtcNs>,
     /// Packets that were there twice and are used once.
     pub duplicates: u64,
     /// How often the clock was set while recording went on.
@@ -90,16 +96,22 @@ pub struct StreamFacts {
     pub clock_jumps: Vec<ClockJump>,
     /// Stretches of one time line each: one more than clock jumps, at most [`LISTED`]. Gaps do not end a stretch.
     pub stretches: Vec<Span>,
+    /// Where samples were, by stretch: a stretch without its gaps. At most [`LISTED`]; kept while ingest runs.
+    #[serde(skip)]
+    pub(super) covered: Vec<(u64, Span)>,
+    /// Whether the times come from a declared rate or duration, and not from stamps.
+    #[serde(default)]
+    pub times_declared: bool,
     /// Bytes of the sensor's files that gave nothing: damage, not headers.
     pub lost_bytes: u64,
 }
 
 impl StreamFacts {
-    /// Times that two stretches claim.
+    /// Times of which two stretches have samples.
     pub(super) fn overlaps(&self) -> Vec<Span> {
         let mut spans = Vec::new();
-        for (i, a) in self.stretches.iter().enumerate() {
-            for b in &self.stretches[i + 1..] {
+        for (i, (stretch, a)) in self.covered.iter().enumerate() {
+            for (_, b) in self.covered[i + 1..].iter().filter(|(other, _)| other != stretch) {
                 let (from, to) = (a.from.max(b.from), a.to.min(b.to));
                 spans.extend((from <= to).then_some(Span { from, to }));
             }

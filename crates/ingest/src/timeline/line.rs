@@ -1,23 +1,28 @@
 //! Puts the blocks of one sensor in order and keeps account of its clock.
 
-use std::collections::VecDeque;
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::collections::{HashSet, VecDeque};
 
 use model::UtcNs;
 
 use super::account::Account;
-use super::block::{Block, Times};
+use super::block::Block;
 use super::facts::StreamFacts;
+use super::pieces::{fingerprint, mend_border, pieces};
 
 /// Blocks that are held back, so that one which was written late finds its place.
 const HELD: usize = 8;
-/// Blocks that a new one is compared with to find it there twice.
-const REMEMBERED: usize = 64;
+/// Blocks that a new one is compared with to find it there twice: nine days of packets of 8 s, in 2 MB.
+const REMEMBERED: usize = 100_000;
+/// Two blocks of fewer samples, without numbers, may be alike by chance: a held reading under a coarse stamp.
+const FEWEST_TO_COMPARE: usize = 8;
+/// A block that is later than this was not written late: its stamp is wrong.
+const LATEST_S: f64 = 600.0;
 
 /// Puts the blocks of one sensor in order.
 ///
 /// A block that begins before the end of the newest one is out of order if the blocks after it go on from the newest, and
-/// if it fits between others. Otherwise the clock was set back, and a new stretch of the time line begins.
+/// if it fits between others. If the blocks after it go on from where the line was before the newest one, that one has a
+/// wrong stamp, and is left out. Otherwise the clock was set back, and a new stretch of the time line begins.
 #[derive(Debug)]
 pub struct Line {
     account: Account,
@@ -25,6 +30,7 @@ pub struct Line {
     /// Blocks that went back, while it is not known why.
     back: Vec<Block>,
     recent: VecDeque<u64>,
+    known: HashSet<u64>,
     ready: VecDeque<Block>,
 }
 
@@ -36,6 +42,7 @@ impl Line {
             held: VecDeque::new(),
             back: Vec::new(),
             recent: VecDeque::new(),
+            known: HashSet::new(),
             ready: VecDeque::new(),
         }
     }
@@ -47,7 +54,10 @@ impl Line {
 
     /// Takes the next block in the order of the file.
     pub fn push(&mut self, block: Block) {
-        for block in in_order(block) {
+        let pieces = pieces(block, self.account.facts.gap_s);
+        self.account.facts.reordered += u64::from(pieces.sorted);
+        self.account.facts.duplicates += pieces.twice;
+        for block in pieces.blocks {
             self.push_ordered(block);
         }
     }
@@ -69,24 +79,50 @@ impl Line {
     }
 
     fn push_ordered(&mut self, block: Block) {
-        let print = fingerprint(&block);
-        if self.recent.contains(&print) {
+        if self.is_known(&block) {
             self.account.facts.duplicates += 1;
             return;
         }
+        self.place(block);
+    }
+
+    /// Whether the block was there before; remembers it.
+    fn is_known(&mut self, block: &Block) -> bool {
+        if block.sequence.is_none() && block.times.len() < FEWEST_TO_COMPARE {
+            return false;
+        }
+        let print = fingerprint(block);
+        if !self.known.insert(print) {
+            return true;
+        }
         self.recent.push_back(print);
-        if self.recent.len() > REMEMBERED {
-            self.recent.pop_front();
+        if self.recent.len() > REMEMBERED
+            && let Some(oldest) = self.recent.pop_front()
+        {
+            self.known.remove(&oldest);
+        }
+        false
+    }
+
+    fn place(&mut self, mut block: Block) {
+        if self.back.is_empty()
+            && let Some(newest) = self.held.back_mut()
+        {
+            self.account.facts.reordered += u64::from(mend_border(newest, &mut block));
         }
         let begin = block.times.first();
-        if self.newest().is_none_or(|newest| begin >= newest) {
-            self.settle_as_late();
+        let goes_on = |line: &Self| line.newest().is_none_or(|newest| begin >= newest);
+        if goes_on(self) {
+            self.settle();
+        }
+        // Where the clock turns out to have been set back, another block is the newest now.
+        if goes_on(self) {
             self.held.push_back(block);
             self.release(HELD);
             return;
         }
         self.back.push(block);
-        if self.back.len() > HELD {
+        if self.back.len() > HELD && !self.leave_out_newest() {
             self.settle_as_set_back();
         }
     }
@@ -96,16 +132,16 @@ impl Line {
         self.held.back().map(|block| block.times.last()).or(self.account.newest())
     }
 
-    fn settle(&mut self) {
-        self.settle_as_late();
-    }
-
     /// The blocks that went back were written late, if they fit between others; otherwise the clock was set back.
-    fn settle_as_late(&mut self) {
+    fn settle(&mut self) {
         if self.back.is_empty() {
             return;
         }
-        if !self.back.iter().all(|block| self.fits(block)) {
+        self.leave_out_misplaced();
+        let mut back: Vec<&Block> = self.back.iter().collect();
+        back.sort_by_key(|block| block.times.first());
+        let overlap = |pair: &[&Block]| pair[1].times.first() <= pair[0].times.last();
+        if back.windows(2).any(overlap) || !back.iter().all(|block| self.fits(block)) {
             self.settle_as_set_back();
             return;
         }
@@ -122,6 +158,36 @@ impl Line {
         }
     }
 
+    /// Blocks that went back much too far, while the line goes on, have a wrong stamp.
+    fn leave_out_misplaced(&mut self) {
+        let Some(newest) = self.newest() else { return };
+        let is_late = |block: &Block| newest.seconds_since(block.times.last()) <= LATEST_S;
+        for block in self.back.iter().filter(|block| !is_late(block)) {
+            self.account.leave_out(block);
+        }
+        self.back.retain(is_late);
+    }
+
+    /// If the blocks that went back go on from where the line was before the newest ones jumped ahead, those have a wrong
+    /// stamp: they are fewer. Leaves them out, and goes on with the others.
+    fn leave_out_newest(&mut self) -> bool {
+        let Some(begin) = self.back.first().map(|block| block.times.first()) else { return false };
+        let before = self.held.partition_point(|held| held.times.last() <= begin);
+        let last = before.checked_sub(1).map(|i| self.held[i].times.last()).or(self.account.newest());
+        let (Some(last), Some(ahead)) = (last, self.held.get(before)) else { return false };
+        let goes_on = begin >= last && begin.seconds_since(last) <= ahead.times.first().seconds_since(last);
+        if !goes_on || ahead.times.first().seconds_since(last) <= self.account.facts.gap_s {
+            return false;
+        }
+        for block in self.held.drain(before..) {
+            self.account.leave_out(&block);
+        }
+        for block in std::mem::take(&mut self.back) {
+            self.place(block);
+        }
+        true
+    }
+
     /// Whether a block overlaps none of those held, and lies after what was released, or in one of its holes.
     fn fits(&self, block: &Block) -> bool {
         let (begin, end) = (block.times.first(), block.times.last());
@@ -133,16 +199,12 @@ impl Line {
         self.release(0);
         self.account.set_back();
         for block in std::mem::take(&mut self.back) {
-            if self.newest_of_stretch().is_some_and(|newest| block.times.first() < newest) {
+            if self.account.newest().is_some_and(|newest| block.times.first() < newest) {
                 self.account.set_back();
             }
             self.account.add(&block);
             self.ready.push_back(block);
         }
-    }
-
-    fn newest_of_stretch(&self) -> Option<UtcNs> {
-        self.account.newest()
     }
 
     fn release(&mut self, keep: usize) {
@@ -152,48 +214,4 @@ impl Line {
             self.ready.push_back(block);
         }
     }
-}
-
-/// The block in pieces whose times never go back.
-fn in_order(block: Block) -> Vec<Block> {
-    let Times::Each(times) = &block.times else { return if block.times.len() == 0 { vec![] } else { vec![block] } };
-    if times.is_sorted() {
-        return if times.is_empty() { vec![] } else { vec![block] };
-    }
-    let breaks = (1..times.len()).filter(|i| times[*i] < times[*i - 1]);
-    let edges: Vec<usize> = std::iter::once(0).chain(breaks).chain([times.len()]).collect();
-    let cut = |columns: &[Vec<f32>], from: usize, to: usize| columns.iter().map(|c| c[from..to].to_vec()).collect();
-    edges
-        .windows(2)
-        .map(|edge| Block {
-            times: Times::Each(times[edge[0]..edge[1]].to_vec()),
-            sequence: block.sequence,
-            channels: cut(&block.channels, edge[0], edge[1]),
-            extra: cut(&block.extra, edge[0], edge[1]),
-        })
-        .collect()
-}
-
-/// Equal for blocks that are there twice.
-fn fingerprint(block: &Block) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    (block.times.first(), block.times.len(), block.sequence).hash(&mut hasher);
-    for channel in &block.channels {
-        mixed(channel).hash(&mut hasher);
-    }
-    hasher.finish()
-}
-
-/// Values mixed into eight lanes, so that the processor works on all of them at once.
-fn mixed(values: &[f32]) -> [u32; 8] {
-    let mut lanes = [0_u32; 8];
-    let (whole, rest) = values.as_chunks::<8>();
-    let mut last = [0.0; 8];
-    last[..rest.len()].copy_from_slice(rest);
-    for chunk in whole.iter().chain([&last]) {
-        for (lane, value) in lanes.iter_mut().zip(chunk) {
-            *lane = (lane.rotate_left(5) ^ value.to_bits()).wrapping_mul(0x9e37_79b1);
-        }
-    }
-    lanes
 }

@@ -8,6 +8,7 @@ mod block;
 mod clock;
 mod facts;
 mod line;
+mod pieces;
 mod stamped;
 mod stepper;
 

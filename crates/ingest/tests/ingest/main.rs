@@ -8,6 +8,7 @@ mod csv_files;
 mod cwa_files;
 mod damaged_images;
 mod damaged_mcap;
+mod fuzz_seeds;
 mod image_extent;
 mod image_times;
 mod odd_cards;

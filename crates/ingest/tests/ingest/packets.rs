@@ -126,7 +126,7 @@ fn file(packets: u32) -> Vec<u8> {
 
 /// Seconds after the first packet of those that are read, and what was wrong.
 fn read(file: &[u8]) -> (Vec<i64>, Vec<Fault>) {
-    let mut packets = PacketSamples::new(file, parser(&layout(SampleOrder::ChannelMajor, Endian::Little)), true);
+    let mut packets = PacketSamples::new(file, parser(&layout(SampleOrder::ChannelMajor, Endian::Little)));
     let blocks = timed(all(&mut packets), 10.0);
     let seconds = blocks.iter().map(|block| (block.times.first().0 - STAMP_NS) / 1_000_000_000).collect();
     (seconds, packets.finish().0)
@@ -156,7 +156,7 @@ fn of_a_cut_packet_the_samples_that_have_all_channels_are_used() {
     let layout = layout(SampleOrder::Interleaved, Endian::Little);
     let values = [2, 10, 70, 0, 2, 10, 71, 0, 2, 10, 72, 0];
     let cut = &packet(Endian::Little, &values)[..35 - 3];
-    let mut packets = PacketSamples::new(cut, parser(&layout), true);
+    let mut packets = PacketSamples::new(cut, parser(&layout));
     assert_eq!(all(&mut packets).iter().map(RawBlock::len).collect::<Vec<_>>(), [2]);
     let faults = packets.finish().0;
     assert!(matches!(faults[..], [Fault::TruncatedPacket { samples: 2, .. }]), "{faults:?}");

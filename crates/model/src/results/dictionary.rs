@@ -37,7 +37,7 @@ pub fn ledger_markdown() -> String {
     let mut text = "# The ledger: why an image was kept or dropped\n\n\
                     Every image of a study has one row in frames.parquet with one reason: the first that applies, in this \
                     order. Images with a pose (the last three) are measured where they are marked; only `selected` ones \
-                    count for fused sizes. A session of which nothing could be used has no rows.\n\n\
+                    count for fused sizes.\n\n\
                     Made from `FrameReason` in `crates/model/src/frame_log.rs` and `FlowStep` in `flow.rs`; `cargo test` compares, \
                     `AIM_BATCH_UPDATE=1 cargo test -p aim-batch-model --test dictionary` rewrites it.\n\n"
         .to_owned();

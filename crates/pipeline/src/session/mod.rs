@@ -86,6 +86,8 @@ pub fn run_session(
     if let Err(problem) = fill(study, dir, options, reporter, &mut output) {
         output.status.failed = true;
         output.status.problems.push(problem);
+        output.frames = rows::ledger_of_failed(study, dir);
+        output.status.images = output.frames.len();
     }
     for problem in &mut output.status.problems {
         problem.fact = without_host(&problem.fact, study, &options.mcap_dir);

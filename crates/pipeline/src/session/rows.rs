@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use ingest::card::{Card, CardFile, Patterns};
 use model::results::RESULTS_SCHEMA_VERSION;
 use model::{
     Estimate, FrameReason, FrameRow, Level, MeasureError, Method, ObjectMarks, Pose, Problem, Quantity, ResultRow,
@@ -10,7 +11,7 @@ use model::{
 
 use super::marks::SessionMarks;
 use super::{Frame, Session};
-use crate::study::Object;
+use crate::study::{Object, SessionDir, Study};
 
 /// One object as one rater marked it on one frame.
 struct Marked<'a> {
@@ -197,12 +198,37 @@ pub(super) fn ledger(session: &Session<'_>, marks: &SessionMarks, results: &[Res
     with_data.chain(dropped).collect()
 }
 
+/// One row for every image on the card of a session of which nothing could be used, by file.
+pub(super) fn ledger_of_failed(study: &Study, dir: &SessionDir) -> Vec<FrameRow> {
+    let (Some(card_dir), Some(images)) = (&dir.card, &study.profile.images) else { return Vec::new() };
+    if !study.holds(card_dir) {
+        return Vec::new();
+    }
+    let (Ok(card), Ok(patterns)) = (Card::list(card_dir), Patterns::new(&images.files)) else { return Vec::new() };
+    let row = |file: &CardFile| FrameRow {
+        bytes: u32::try_from(file.bytes).unwrap_or(u32::MAX),
+        ..row_without_numbers(&study.spec.name, &dir.name, None, &file.name, FrameReason::SessionFailed)
+    };
+    card.fitting(&patterns).iter().map(row).collect()
+}
+
 fn empty_row(session: &Session<'_>, file: &str, reason: FrameReason) -> FrameRow {
+    let participant = session.spec.participant.clone();
+    row_without_numbers(&session.study.spec.name, &session.dir.name, participant, file, reason)
+}
+
+fn row_without_numbers(
+    study: &str,
+    session: &str,
+    participant: Option<String>,
+    file: &str,
+    reason: FrameReason,
+) -> FrameRow {
     FrameRow {
         schema_version: RESULTS_SCHEMA_VERSION,
-        study: session.study.spec.name.clone(),
-        session: session.dir.name.clone(),
-        participant: session.spec.participant.clone(),
+        study: study.to_owned(),
+        session: session.to_owned(),
+        participant,
         image: file.to_owned(),
         time_utc: None,
         reason,

@@ -21,8 +21,12 @@ fn run_with(adjust: impl FnOnce(&mut StudySpec)) -> SessionOutput {
     let study = Study::load(&bench, adjust).unwrap();
     let dir = study.sessions.iter().find(|dir| dir.name == "bench-35cm-38deg").unwrap();
     let mcap_dir = tempfile::tempdir().unwrap();
-    let (mcap_dir, program) = (mcap_dir.path().to_owned(), "test".to_owned());
-    let options = SessionOptions { mcap_dir, force: false, survey: false, program };
+    let options = SessionOptions {
+        mcap_dir: mcap_dir.path().to_owned(),
+        force: false,
+        survey: false,
+        program: "test".to_owned(),
+    };
     run_session(&study, dir, &options, &Silent)
 }
 

@@ -19,7 +19,7 @@ const STATISTIC: &str = "Numbers of images, each a part of the one to its left. 
                          selected: its sizes are fused. With marks, with sizes: of the selected images. Other marks: marked \
                          images that are not selected; where they have a pose they are measured, but not fused.";
 
-/// One session of the study. Of a lost one there is no flow, but a note.
+/// One session of the study. A lost one has a note, and no flow where no image was found.
 struct Session<'a> {
     name: &'a str,
     flow: Option<Flow>,
@@ -63,7 +63,8 @@ fn sessions(results: &Results) -> Vec<Session<'_>> {
     let mut sessions: BTreeMap<&str, Session<'_>> =
         statuses.iter().map(|status| (status.session.as_str(), without_images(status))).collect();
     for (name, flow) in results.flow.iter().flat_map(model::StudyFlow::sessions) {
-        sessions.insert(name, Session { name, flow: Some(flow.clone()), note: None });
+        let note = sessions.remove(name).and_then(|session| session.note);
+        sessions.insert(name, Session { name, flow: Some(flow.clone()), note });
     }
     sessions.into_values().collect()
 }
@@ -74,7 +75,7 @@ fn without_images(status: &SessionStatus) -> Session<'_> {
         return Session { name, flow: Some(Flow::default()), note: None };
     }
     let code = status.problems.last().map_or("failed", |problem| &problem.code);
-    let note = format!("nothing of this session could be used ({code}); its images are not counted");
+    let note = format!("nothing of this session could be used ({code})");
     Session { name, flow: None, note: Some(note) }
 }
 

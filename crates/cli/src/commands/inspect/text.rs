@@ -73,6 +73,11 @@ fn push_range(text: &mut String, facts: &RangeFacts) {
     clock::push(text, "range", &facts.clock);
     line(text, 4, "readings", &sparkline(&facts.range_mm, "mm"));
     more(text, &in_words(&facts.range_mm, "mm", "reading"));
+    if let (Some(mean), Some(least), Some(greatest)) = (facts.mean_mm, facts.least_mm, facts.greatest_mm) {
+        let sd = facts.sd_mm.map_or_else(String::new, |sd| format!(", SD {sd:.2}"));
+        more(text, &format!("mean {mean:.2}{sd}, {least:.0} to {greatest:.0} mm"));
+    }
+    line(text, 4, "repeated", &format!("{} like the one before", count(facts.repeated_samples, "sample")));
     line(text, 4, "no target", &count(facts.no_target_samples, "sample"));
 }
 

@@ -4,7 +4,7 @@ mod damage;
 mod real;
 mod round_trip;
 mod times;
-mod writer;
+pub mod writer;
 
 use aim_batch_ingest::parse::cwa::{Block, CwaBlocks, CwaFacts};
 use aim_batch_ingest::timeline::{BlockStamp, BlockTimes, SampleTimes};

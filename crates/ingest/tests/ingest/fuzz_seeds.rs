@@ -1,0 +1,279 @@
+//! The files from which fuzzing starts: well-formed and damaged ones of every kind, small. `AIM_BATCH_UPDATE=1` writes them
+//! into `fuzz/corpus/`; files there whose names begin otherwise than `seed-` were found by fuzzing and stay.
+
+use std::path::{Path, PathBuf};
+
+use aim_batch_ingest::Profile;
+use fuzz_targets::TARGETS;
+
+use crate::cwa_files::writer::{BlockSpec, RATE_100_HZ, Samples, header, seal};
+use crate::support::{NOON_S, Study, jpeg, jpeg_with_exif, png};
+
+const LARGEST_FILE_BYTES: usize = 16 * 1024;
+const LARGEST_CORPUS_BYTES: usize = 300 * 1024;
+
+/// The files of a target's corpus, by name.
+pub fn corpus(target: &str) -> Vec<(String, Vec<u8>)> {
+    let mut files: Vec<(String, Vec<u8>)> = std::fs::read_dir(root().join("fuzz/corpus").join(target))
+        .unwrap_or_else(|error| panic!("{error}: fuzz/corpus/{target}; AIM_BATCH_UPDATE=1 writes the seeds"))
+        .map(|entry| entry.unwrap())
+        .map(|entry| (entry.file_name().to_string_lossy().into_owned(), std::fs::read(entry.path()).unwrap()))
+        .collect();
+    files.sort();
+    files
+}
+
+/// Every file runs; every seed that is not damaged on purpose still means something to its parser.
+#[test]
+fn the_corpus_is_read() {
+    if std::env::var_os("AIM_BATCH_UPDATE").is_some() {
+        write_seeds();
+    }
+    let mut all_bytes = 0;
+    for (target, entry) in TARGETS {
+        let files = corpus(target);
+        assert!(files.iter().filter(|(name, _)| name.starts_with("seed-")).count() >= 3, "{target}: too few seeds");
+        for (name, bytes) in files {
+            assert!(bytes.len() <= LARGEST_FILE_BYTES, "{target}/{name}: {} bytes", bytes.len());
+            all_bytes += bytes.len();
+            let read = entry(&bytes);
+            assert!(read > 0 || !name.starts_with("seed-"), "{target}/{name}: nothing is read; write the seeds again");
+        }
+    }
+    assert!(all_bytes <= LARGEST_CORPUS_BYTES, "the corpus has grown to {all_bytes} bytes");
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn write_seeds() {
+    let seeds = [
+        ("config_toml", config_toml()),
+        ("csv", csv()),
+        ("cwa", cwa()),
+        ("image", image()),
+        ("labelme", labelme()),
+        ("mcap", mcap()),
+        ("packets", packets()),
+        ("timeline", timeline()),
+    ];
+    for (target, files) in seeds {
+        let folder = root().join("fuzz/corpus").join(target);
+        std::fs::create_dir_all(&folder).unwrap();
+        for (name, bytes) in files {
+            std::fs::write(folder.join(format!("seed-{name}")), bytes).unwrap();
+        }
+    }
+}
+
+type Seeds = Vec<(String, Vec<u8>)>;
+
+fn named(name: &str, bytes: impl Into<Vec<u8>>) -> (String, Vec<u8>) {
+    (name.to_owned(), bytes.into())
+}
+
+fn repository_file(path: &str) -> Vec<u8> {
+    std::fs::read(root().join(path)).unwrap()
+}
+
+/// The built-in profiles and cameras, and a study of each kind of file.
+fn config_toml() -> Seeds {
+    let built_in = [
+        ("profiles", "aim2-packets"),
+        ("profiles", "axivity-cwa"),
+        ("profiles", "csv"),
+        ("profiles", "pupil-neon"),
+        ("cameras", "aim2-raw"),
+        ("cameras", "aim2-corrected"),
+    ];
+    let mut seeds: Seeds = built_in
+        .iter()
+        .map(|(kind, name)| {
+            named(&format!("{name}.toml"), repository_file(&format!("crates/ingest/{kind}/{name}.toml")))
+        })
+        .collect();
+    seeds.push(named("study.toml", repository_file("data-samples/published-bench/study.toml")));
+    let session = "participant = \"P01\"\nsetup_height_mm = 450.0\nsetup_pitch_deg = 55\ncamera = \"aim2-raw\"\n\
+                   clock_zero_utc = \"2025-06-01T12:00:00Z\"\n";
+    seeds.push(named("session.toml", session));
+    seeds.push(named("fisheye.toml", CAMERA.replace("LENS", "model = \"fisheye\"\nk1 = 0.01\nk4 = -0.001")));
+    seeds.push(named("plumb-bob.toml", CAMERA.replace("LENS", "model = \"plumb_bob\"\nk1 = -0.1\np1 = 0.001")));
+    seeds
+}
+
+const CAMERA: &str = "schema_version = 1\nname = \"small\"\nwidth_px = 640\nheight_px = 480\nfocal_px = [500.0, 501.0]\n\
+                      principal_px = [320.0, 240.0]\n[lens]\nLENS\n";
+
+/// Settings of `fuzz/src/csv.rs`, then the file.
+fn csv() -> Seeds {
+    let rows = |line: &dyn Fn(u32) -> String| (0..12).map(line).collect::<String>();
+    let seed = |settings: [u8; 8], text: String| [&settings[..], text.as_bytes()].concat();
+    let range = rows(&|i| format!("1748779200.{i:03},{},{i}\n", 400 + i));
+    let acceleration =
+        rows(&|i| format!("{}\t{i}\t-1000\t{}\t7\r\n", 1_748_779_200_000_u64 + 10 * u64::from(i), 2 * i));
+    let texts = rows(&|i| format!("2025-06-01 12:00:{i:02}.5;\"{}\";\n", 400 + i));
+    let zoned = rows(&|i| format!("01.06.2025 01:00:{i:02} PM +0200,{}\n", 500 + i));
+    let damaged = "t,range\n1748779200,1\n1748779201,x\n1748779202\n1748779204,\n,5\n1748779203,nan\n1748779203.5,3\n";
+    vec![
+        named("range", seed([3, 0, 0, 0, 0, 0, 9, 0], format!("t,range,optical\n{range}"))),
+        named(
+            "milliseconds",
+            seed([1, 1, 2, 2, 3, 0, 99, 0], format!("# a\n# b\nt\tx\ty\tz\toptical\n{acceleration}")),
+        ),
+        named("texts", seed([3, 5, 1, 0, 0, 1, 0, 0], format!(" t ;range;optical\n{texts}"))),
+        named("zoned", seed([3, 7, 0, 0, 5, 0, 0, 0], format!("t,range,optical\n{zoned}"))),
+        named("counted", seed([10, 4, 0, 0, 0, 0, 9, 0], "0,1\n0,2\n0,\n0,4\n0,5\n".to_owned())),
+        named("boot", seed([6, 1, 0, 0, 0, 0, 9, 1], "1099511620,1\n1099511627,2\n3,3\n40,4\n".to_owned())),
+        named("local", seed([2, 0, 0, 0, 0, 1, 0, 2], "1762042500,1\n1762045200,2\n1762048800,3\n".to_owned())),
+        named("damaged", seed([3, 0, 0, 0, 1, 0, 0, 0], damaged.replace("t,range", "t,range,optical"))),
+    ]
+}
+
+fn cwa() -> Seeds {
+    let block = |i: u32, samples: Samples| BlockSpec {
+        sequence: i,
+        stamp_s: 36_000.0 + 0.8 * f64::from(i),
+        index: 40,
+        has_fraction: true,
+        rate_code: RATE_100_HZ,
+        scales: (0, 4),
+        samples,
+    };
+    let accel = |i: u32| block(i, Samples::Accel((0..80).map(|k| [k, -256, i as i16]).collect())).bytes();
+    let gyro = |i: u32| block(i, Samples::GyroAccel((0..40).map(|k| [k, 1, 2, 3, 4, 5]).collect())).bytes();
+    let packed = |i: u32| block(i, Samples::Packed((0..120).map(|k| ([k, -256, 3], 1)).collect())).bytes();
+    let file = |hardware: u8, blocks: Vec<[u8; 512]>| [header(hardware), blocks.concat()].concat();
+    let whole = file(0x17, (0..5).map(accel).collect());
+    let mut odd = accel(3);
+    odd[28] = 200; // more samples than there is room for
+    seal(&mut odd);
+    let damaged = [&whole[1024..1600], &[0; 100], &odd, &whole[1536..3000]].concat();
+    vec![
+        named("accel", whole.clone()),
+        named("gyro", file(0x64, [0, 1, 3, 2, 4].map(gyro).to_vec())),
+        named("packed", file(0xff, [0, 0, 1, 9].map(packed).to_vec())),
+        named("damaged", damaged),
+    ]
+}
+
+/// Pictures; and a pattern with a name.
+fn image() -> Seeds {
+    let exif = |time, subsec, offset| jpeg_with_exif(time, subsec, offset);
+    vec![
+        named("plain.jpg", jpeg(32, 24, 9)),
+        named("plain.png", png(32, 24)),
+        named("utc.jpg", exif(Some("2025:06:01 12:00:00"), Some("123456"), Some("+01:00"))),
+        named("local.jpg", exif(Some("2025:06:01 12:00:00"), None, None)),
+        named("no-time.jpg", exif(None, Some("5"), Some("   :  "))),
+        named("cut.jpg", &exif(Some("2025:06:01 12:00:00"), Some("5"), None)[..400]),
+        named("name", "%Y%m%dT%H%M%S%.fZ\n20250601T120000.250Z.JPG"),
+        named("name-seconds", "img_%s\nimg_1748779200.jpg"),
+    ]
+}
+
+fn labelme() -> Seeds {
+    let shape = |label: &str, kind: &str, points: &str| {
+        format!("{{\"label\": \"{label}\", \"points\": [{points}], \"shape_type\": \"{kind}\", \"group_id\": null}}")
+    };
+    let file = |shapes: &[String]| {
+        let shapes = shapes.join(", ");
+        format!("{{\"version\": \"5.4.1\", \"shapes\": [{shapes}], \"imageWidth\": 640, \"imageHeight\": 480}}")
+    };
+    let line = shape("red bowl/diameter", "line", "[1, 2], [3.5, 4e2]");
+    let height = shape("a/b/height", "linestrip", "[-1, 2], [3, 4]");
+    let rim = shape("plate/rim", "polygon", "[1, 2], [3, 4], [5, 6.5], [0.1, 1e-7]");
+    let base = shape("plate/base", "points", "[1, 2], [3, 4]");
+    let refused = [shape("plate", "line", ""), shape("p/girth", "line", "[1, 2]"), shape("p/rim", "circle", "[1, 2]")];
+    vec![
+        named("line.json", file(std::slice::from_ref(&line))),
+        named("all.json", file(&[line.clone(), height, rim, base])),
+        named("refused.json", file(&[&refused[..], std::slice::from_ref(&line)].concat())),
+        named("mark.json", format!("\u{feff}{{\"shapes\": [{line}]}}")),
+    ]
+}
+
+/// Sessions of a few samples and one picture of 32 x 24 px.
+fn mcap() -> Seeds {
+    let session = |profile: &str, files: &[(&str, Vec<u8>)]| {
+        let mut study = Study::new(profile);
+        shorten(&mut study.source.profile);
+        files.iter().for_each(|(name, bytes)| study.write(name, bytes));
+        study.ingest();
+        std::fs::read(study.out()).unwrap()
+    };
+    let values = |from: u16, n: u16| (from..from + n).flat_map(u16::to_le_bytes);
+    let packet = |at: f64, from, n| (NOON_S as f64 + at).to_le_bytes().into_iter().chain(values(from, n)).collect();
+    let acceleration = |at: f64| -> Vec<u8> { packet(at, 0, 32) };
+    let range = |at: f64| -> Vec<u8> { packet(at, 400, 8) };
+    let even = [0.0, 0.0625, 0.125];
+    let set_back: Vec<f64> = [100.0, 100.0625].into_iter().chain((0..12).map(|i| 0.0625 * f64::from(i))).collect();
+    let file = |packet: &dyn Fn(f64) -> Vec<u8>, at: &[f64]| at.iter().flat_map(|at| packet(*at)).collect::<Vec<u8>>();
+    vec![
+        named("sensors.mcap", session("aim2-packets", &[("SENSORS/ACC.BIN", file(&acceleration, &even))])),
+        named("set-back.mcap", session("aim2-packets", &[("SENSORS/RNG.BIN", file(&range, &set_back))])),
+        named("images.mcap", session("aim2-packets", &[("IMAGES/20250601T120000Z.JPG", jpeg(32, 24, 9))])),
+    ]
+}
+
+/// Packets of 8 samples.
+fn shorten(profile: &mut Profile) {
+    let streams = [
+        profile.acceleration.as_mut().and_then(|stream| stream.packets.as_mut()),
+        profile.range.as_mut().and_then(|stream| stream.packets.as_mut()),
+    ];
+    streams.into_iter().flatten().for_each(|packets| packets.samples = 8);
+}
+
+/// Settings of `fuzz/src/packets.rs`, then the file.
+fn packets() -> Seeds {
+    let values = |n: i16| (0..n).flat_map(|i| (100 * i).to_le_bytes());
+    // x, y, z, range and optical, 8 samples of 16 bits, stamped in seconds (f64).
+    let seconds = |at: f64| (NOON_S as f64 + at).to_le_bytes().into_iter().chain(values(40)).collect::<Vec<u8>>();
+    let settings = |flags: u8, stamp: u8, unit: u8, at: u8, epoch: u8, wrap: u8, is_range: u8| {
+        [flags, stamp, 2, 1, unit, at, epoch, wrap, 0, 8, 0, is_range, 0, 0, 16]
+    };
+    let file = |at: &[f64]| at.iter().flat_map(|at| seconds(*at)).collect::<Vec<u8>>();
+    let even = file(&[0.0, 0.0625, 0.125, 0.1875, 0.25, 0.3125]);
+    let mut zeros = even.clone();
+    zeros[88..264].fill(0);
+    let mut lost = even.clone();
+    lost.drain(200..211);
+    let numbered = |i: u32| [&(62 * i).to_le_bytes()[..], &i.to_le_bytes(), &values(40).collect::<Vec<u8>>()].concat();
+    let counter: Vec<u8> = [0, 1, 2, 4, 3, 3, 5].into_iter().flat_map(numbered).collect();
+    let seed = |settings: [u8; 15], file: &[u8]| [&settings[..], file].concat();
+    vec![
+        named("even", seed(settings(32, 0, 0, 0, 0, 0, 0), &even)),
+        named("stamps", seed(settings(4, 0, 0, 2, 0, 0, 1), &file(&[0.0, 0.063, 0.126, 0.4, 0.463]))),
+        named("zeros", seed(settings(0, 0, 0, 0, 0, 0, 1), &zeros)),
+        named("lost-bytes", seed(settings(16, 0, 0, 0, 0, 0, 1), &lost)),
+        named("cut", seed(settings(16, 0, 0, 1, 0, 0, 0), &even[..300])),
+        named("set-back", seed(settings(0, 0, 0, 0, 3, 0, 1), &file(&[100.0, 100.0625, 0.0, 0.0625, 0.125]))),
+        named("counter", seed(settings(1, 2, 1, 0, 1, 32, 0), &counter)),
+    ]
+}
+
+/// Settings of `fuzz/src/timeline.rs`, then blocks: form, step of the stamp, samples, and what the form needs.
+fn timeline() -> Seeds {
+    let seed = |settings: [u8; 5], blocks: &[Vec<u8>]| [&settings[..], &blocks.concat()].concat();
+    // Eight samples at 100 Hz, the stamp so many steps of 10 ms after the last one.
+    let packet = |steps: i16| [&[8][..], &steps.to_le_bytes(), &[8, 0, 0]].concat();
+    let with_holes = |steps: i16| [&[9][..], &steps.to_le_bytes(), &[8, 3, 0, 0]].concat();
+    let each = |steps: i16, at: &[i8]| {
+        let at: Vec<u8> = at.iter().map(|at| at.cast_unsigned()).collect();
+        [&[10][..], &steps.to_le_bytes(), &[at.len() as u8], &at].concat()
+    };
+    let counted = |first: i16| [&[12][..], &first.to_le_bytes(), &[50]].concat();
+    let again = vec![14, 0, 0, 0];
+    let steps = |steps: &[i16]| steps.iter().map(|steps| packet(*steps)).collect::<Vec<_>>();
+    vec![
+        named("even", seed([0, 0, 0, 0, 0], &steps(&[0, 8, 8, 8, 8, 8]))),
+        named("stamps", seed([2, 3, 0, 1, 0], &steps(&[0, 8, 8, 9, 200, 8, 7]))),
+        named("late", seed([0, 0, 0, 0, 0], &steps(&[0, 8, 16, -8, 16, 8, 8, 8, 8, 8, 8, 8, 8, -64, 72, 8]))),
+        named("set-back", seed([0, 0, 0, 0, 0], &steps(&[0, 8, 8, -5000, 8, 8, 8, 8, 8, 8, 8, 8, 8, 8]))),
+        named("twice", seed([0, 0, 0, 0, 0], &[packet(0), again.clone(), packet(8), again, with_holes(8)])),
+        named("each", seed([0, 0, 0, 0, 0], &[each(0, &[0, 1, 2, 5]), each(50, &[0, -3, 4, 4]), each(9, &[0])])),
+        named("counted", seed([0, 1, 0, 0, 0], &[counted(0), counted(50), vec![7, 0, 1, 0], counted(100)])),
+        named("wrapping", seed([0, 1, 12, 0, 0], &[vec![0x88, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 8, 0, 0], packet(8)])),
+    ]
+}
