@@ -183,3 +183,13 @@ fn settings_of_the_command_line_hold() {
         |more: &[&str]| json(&check(study.path(), &[&["--json"], more].concat()))["flow"]["steps"]["selected"].clone();
     assert_eq!((selected(&[]), selected(&["--target-pitch", "30"])), (Value::from(1), Value::from(0)));
 }
+
+/// The lag of the images needs pictures, which a check does not keep; that it is asked for loses nothing.
+#[test]
+fn a_study_that_asks_for_the_lag_is_checked_without_it() {
+    let study = StudyFolder::new("[time]\nestimate_lag = true\n", OBJECTS, &small_camera());
+    study.session("good", &[shot(), shot()]);
+    let output = check(study.path(), &["--json"]);
+    assert_exit(&output, 0);
+    assert!(!stdout(&output).contains("image_lag") && !stdout(&output).contains("bad_mcap"));
+}

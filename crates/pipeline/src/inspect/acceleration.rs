@@ -4,11 +4,12 @@ use ingest::timeline::StreamFacts;
 use ingest::{ReadError, SessionReader};
 use jiff::tz::TimeZone;
 use model::{Pose, UtcNs, median};
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::clock::ClockFacts;
 use super::histogram::Histogram;
+use crate::signals::down_in_camera;
 
 /// Bins of the camera's pitch: 0 to 90 degrees.
 const PITCH_BIN_DEG: f64 = 5.0;
@@ -58,7 +59,7 @@ pub(super) fn read(
 
 /// Pitch second by second; holds the samples of one second.
 struct Pitches {
-    camera_from_device: Rotation3<f64>,
+    mount_pitch_rad: f64,
     second: i64,
     axes: [Vec<f64>; 3],
     histogram: Histogram,
@@ -67,7 +68,7 @@ struct Pitches {
 impl Pitches {
     fn new(mount_pitch_deg: f64) -> Self {
         Self {
-            camera_from_device: Rotation3::from_axis_angle(&Vector3::x_axis(), mount_pitch_deg.to_radians()),
+            mount_pitch_rad: mount_pitch_deg.to_radians(),
             second: 0,
             axes: [Vec::new(), Vec::new(), Vec::new()],
             histogram: Histogram::new(0.0, PITCH_BIN_DEG, PITCH_BINS),
@@ -90,8 +91,7 @@ impl Pitches {
             return;
         }
         let specific_force_g = Vector3::from(self.axes.each_mut().map(|axis| median(std::mem::take(axis))));
-        // At rest, specific force points up.
-        let down = self.camera_from_device * -specific_force_g;
+        let down = down_in_camera(&specific_force_g, self.mount_pitch_rad);
         if let Ok((pitch_rad, _)) = Pose::pitch_roll_of_down(&down) {
             self.histogram.add(pitch_rad.to_degrees());
         }

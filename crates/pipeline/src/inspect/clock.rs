@@ -153,8 +153,11 @@ mod tests {
             .zip(lengths_s)
             .map(|(i, s)| Span { from: at(f64::from(i) * 20.0), to: at(f64::from(i) * 20.0 + s) })
             .collect();
-        let facts = StreamFacts { gaps: 7, listed_gaps, ..StreamFacts::default() };
-        let found = ClockFacts::new(&facts, &TimeZone::UTC);
+        let facts = |mut facts: StreamFacts| {
+            (facts.gaps, facts.listed_gaps) = (7, listed_gaps);
+            facts
+        };
+        let found = ClockFacts::new(&facts(StreamFacts::default()), &TimeZone::UTC);
         let longest_s: Vec<i64> = found.gaps.longest.iter().map(|span| span.duration_s as i64).collect();
         assert_eq!((longest_s, found.gaps.count), (vec![9, 9, 6, 5, 4], 7));
         assert!(found.gaps.longest[0].from.0 < found.gaps.longest[1].from.0);

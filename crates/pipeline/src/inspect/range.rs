@@ -7,9 +7,8 @@ use serde::Serialize;
 
 use super::clock::ClockFacts;
 use super::histogram::Histogram;
+use crate::signals::NO_TARGET_MM;
 
-/// Codes of the VL53L0X for 'no target' (ST UM2039: out of range).
-const NO_TARGET_MM: [f32; 2] = [8190.0, 8191.0];
 /// Bins of the range: 0 to 2000 mm.
 const RANGE_BIN_MM: f64 = 100.0;
 const RANGE_BINS: u32 = 20;
@@ -67,12 +66,13 @@ pub(super) fn read(
     let mut moments = Moments::default();
     let mut last = None;
     reader.for_each_range(|_, mm| {
+        let mm = f64::from(mm);
         repeated_samples += u64::from(last.replace(mm) == Some(mm));
         if NO_TARGET_MM.contains(&mm) {
             no_target_samples += 1;
         } else {
-            range_mm.add(f64::from(mm));
-            moments.add(f64::from(mm));
+            range_mm.add(mm);
+            moments.add(mm);
         }
     })?;
     Ok(Some(RangeFacts {

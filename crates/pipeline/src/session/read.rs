@@ -39,7 +39,8 @@ pub(super) fn read(study: &Study, mcap: &Path, name: &str) -> Result<Read, Probl
     let found = signals::at_images(&mut reader, &times, &settings).map_err(refuse)?;
     let mut notes: Vec<Problem> =
         found.calibration.and_then(|c| calibration_note(study, name, &c)).into_iter().collect();
-    if study.spec.time.estimate_lag {
+    // A survey has no pictures; the lag is a note, by which nothing is lost.
+    if study.spec.time.estimate_lag && !metadata.is_survey() {
         let estimate = lag::estimate(&mut reader, &images).map_err(refuse)?;
         notes.push(lag::note(name, &estimate, lag_s));
     }

@@ -1,7 +1,5 @@
 //! From gravity and range to the pose of one image, and the reason that the ledger gives.
 
-use std::f64::consts::FRAC_PI_2;
-
 use model::{FrameFlag, FrameReason, Pose};
 use nalgebra::{Rotation3, Vector3};
 
@@ -99,8 +97,7 @@ fn reason(signals: &FrameSignals, settings: &SignalSettings) -> FrameReason {
 
 /// Down in the camera frame, from the specific force at rest in the device frame (it points up), with the camera turned
 /// down by the mount offset about the axis x that both share.
-pub(super) fn down_in_camera(specific_force_g: &Vector3<f64>, mount_pitch_rad: f64) -> Vector3<f64> {
-    debug_assert!(mount_pitch_rad.abs() <= FRAC_PI_2);
+pub(crate) fn down_in_camera(specific_force_g: &Vector3<f64>, mount_pitch_rad: f64) -> Vector3<f64> {
     Rotation3::from_axis_angle(&Vector3::x_axis(), mount_pitch_rad) * -specific_force_g
 }
 

@@ -19,6 +19,8 @@ use nalgebra::Vector3;
 use crate::study::{GravityCalibrate, SelectSpec, SignalsSpec};
 use calibration::StillWindows;
 pub use calibration::{AxisCalibration, CalibrationVerdict, GravityCalibration};
+pub(crate) use frame::down_in_camera;
+pub(crate) use range::NO_TARGET_MM;
 use window::Windows;
 
 /// What the sensors say about one image.

@@ -30,7 +30,7 @@ pub(super) struct Range {
 }
 
 /// Codes of the VL53L0X for 'no target' (ST UM2039: out of range).
-const NO_TARGET_MM: [f64; 2] = [8190.0, 8191.0];
+pub(crate) const NO_TARGET_MM: [f64; 2] = [8190.0, 8191.0];
 /// Fewer valid readings than this in the window give no range.
 const MIN_VALID: usize = 3;
 /// Nor does a window in which fewer than one in this many readings are valid: a few echoes among 'no target' are not the
