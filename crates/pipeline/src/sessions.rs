@@ -8,7 +8,7 @@ use model::{Problem, SessionStatus, Severity, Stage};
 use rayon::prelude::*;
 
 use crate::reporter::Reporter;
-use crate::session::{SessionOptions, SessionOutput, run_session};
+use crate::session::{SessionOptions, SessionOutput, ledger_of_failed, run_session};
 use crate::study::{SessionDir, Study};
 
 /// What `one` makes of each session, `jobs` at a time (none: one per core that this process may use), in the order of the
@@ -35,8 +35,10 @@ pub(crate) fn guarded(
 ) -> SessionOutput {
     unless_panicking(dir, || run_session(study, dir, options, reporter)).unwrap_or_else(|problem| {
         let problems = vec![problem];
-        let status = SessionStatus { session: dir.name.clone(), failed: true, problems, ..SessionStatus::default() };
-        SessionOutput { status, ..SessionOutput::default() }
+        let frames = ledger_of_failed(study, dir);
+        let (session, images) = (dir.name.clone(), frames.len());
+        let status = SessionStatus { session, failed: true, images, problems, ..SessionStatus::default() };
+        SessionOutput { status, frames, ..SessionOutput::default() }
     })
 }
 

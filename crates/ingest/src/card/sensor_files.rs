@@ -1,7 +1,7 @@
 //! In which order the files of a sensor are read.
 
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::{BufRead, BufReader};
 
 use jiff::tz::TimeZone;
 use model::UtcNs;
@@ -92,13 +92,20 @@ pub(crate) fn count_rows(file: &CardFile, layout: &Layout) -> u64 {
 
 fn same_bytes(a: &CardFile, b: &CardFile) -> bool {
     let (Ok(a), Ok(b)) = (File::open(&a.path), File::open(&b.path)) else { return false };
-    let (mut a, mut b) =
-        (BufReader::with_capacity(64 * 1024, a).bytes(), BufReader::with_capacity(64 * 1024, b).bytes());
+    let (mut a, mut b) = (BufReader::with_capacity(64 * 1024, a), BufReader::with_capacity(64 * 1024, b));
     loop {
-        match (a.next(), b.next()) {
-            (None, None) => return true,
-            (Some(Ok(a)), Some(Ok(b))) if a == b => {}
+        let same = match (a.fill_buf(), b.fill_buf()) {
+            (Ok([]), Ok([])) => return true,
+            (Ok(a), Ok(b)) => {
+                let n = a.len().min(b.len());
+                if n == 0 || a[..n] != b[..n] {
+                    return false;
+                }
+                n
+            }
             _ => return false,
-        }
+        };
+        a.consume(same);
+        b.consume(same);
     }
 }

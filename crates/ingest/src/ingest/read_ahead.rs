@@ -1,4 +1,4 @@
-//! Reads and hashes the next images while one is written: each takes about half of the time.
+//! Reads and hashes the next images while one is written.
 
 use std::sync::mpsc::sync_channel;
 

@@ -57,6 +57,8 @@ pub struct RowTime {
     pub rows_over_s: Option<f64>,
 }
 
+// The keys of the file stand in both tables: serde cannot flatten a struct where unknown keys are refused.
+
 /// Columns of an accelerometer's CSV file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -117,20 +117,24 @@ impl Account {
         }
     }
 
-    /// Samples from there to there, of the current stretch.
+    /// Samples from there to there, of the current stretch. The list is bounded, and errs towards times that exist twice: a
+    /// stretch that has many gaps loses them, and beyond twice the bound two spans that grow together cover each other.
     fn cover_span(&mut self, from: UtcNs, to: UtcNs) {
         let (stretch, gap_s) = (self.facts.jumps, self.facts.gap_s);
-        let is_full = self.facts.covered.len() >= LISTED;
-        match self.facts.covered.last_mut() {
-            Some((of, last)) if (*of == stretch && from.seconds_since(last.to) <= gap_s && from >= last.from) => {
-                last.to = last.to.max(to);
+        let covered = &mut self.facts.covered;
+        let spans = covered.len();
+        if spans >= 2 * LISTED {
+            for ((of, span), own) in covered.iter_mut().rev().zip([u64::MAX, u64::MAX - 1]) {
+                *of = own;
+                *span = Span { from: span.from.min(from), to: span.to.max(to) };
             }
-            // Beyond the list's end the last span grows, so that nothing that exists twice passes for unique.
-            Some((_, last)) if is_full => {
-                last.from = last.from.min(from);
-                last.to = last.to.max(to);
+            return;
+        }
+        match covered.last_mut() {
+            Some((of, last)) if *of == stretch && (spans >= LISTED || last.is_near(from, gap_s)) => {
+                *last = Span { from: last.from.min(from), to: last.to.max(to) };
             }
-            _ => self.facts.covered.push((stretch, Span { from, to })),
+            _ => covered.push((stretch, Span { from, to })),
         }
     }
 
@@ -194,5 +198,53 @@ impl Account {
         let facts = &mut self.facts;
         facts.shortest_step_s = Some(facts.shortest_step_s.map_or(seconds, |shortest| shortest.min(seconds)));
         facts.longest_step_s = Some(facts.longest_step_s.map_or(seconds, |longest| longest.max(seconds)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Timeline;
+    use super::*;
+
+    fn block(from_s: i64) -> Block {
+        let times = Times::Even { first: UtcNs(from_s * 1_000_000_000), step_ns: 1e8, samples: 10 };
+        Block { times, sequence: None, channels: vec![vec![0.0; 10]], extra: vec![] }
+    }
+
+    /// Times that exist twice, of a session in blocks of 1 s.
+    fn ambiguous(stretches: &[&[i64]]) -> Vec<Span> {
+        let mut account = Account::new(10.0, 0.5);
+        for (i, stretch) in stretches.iter().enumerate() {
+            if i > 0 {
+                account.set_back();
+            }
+            stretch.iter().for_each(|from_s| account.add(&block(*from_s)));
+        }
+        Timeline::new(Some(account.finish()), None).ambiguous
+    }
+
+    #[test]
+    fn what_lies_in_a_gap_of_another_stretch_exists_once() {
+        assert_eq!(ambiguous(&[&[0, 1, 100, 101], &[50, 51]]), []);
+        assert_eq!(ambiguous(&[&[0, 1, 100, 101], &[50, 100]]).len(), 1);
+    }
+
+    #[test]
+    fn many_gaps_hide_no_time_that_exists_twice() {
+        let gappy: Vec<i64> = (0..1_500).map(|i| 10 * i).collect();
+        let back = [14_990];
+        let found = ambiguous(&[&gappy, &back]);
+        assert!(
+            found.iter().any(|span| span.from.0 <= 14_990_000_000_000 && span.to.0 >= 14_990_900_000_000),
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn many_jumps_hide_no_time_that_exists_twice() {
+        let stretches: Vec<Vec<i64>> = (0..2_500).map(|i| vec![1_000_000 - 2 * i]).chain([vec![995_001]]).collect();
+        let stretches: Vec<&[i64]> = stretches.iter().map(Vec::as_slice).chain([&[995_002_i64][..]]).collect();
+        let found = ambiguous(&stretches);
+        assert!(found.iter().any(|span| span.from.0 <= 995_002_000_000_000 && span.to.0 >= 995_002_900_000_000));
     }
 }

@@ -47,6 +47,11 @@ pub struct Span {
 }
 
 impl Span {
+    /// Whether a later span that begins there has no gap to this one.
+    pub(super) fn is_near(&self, begin: UtcNs, gap_s: f64) -> bool {
+        begin >= self.from && begin.seconds_since(self.to) <= gap_s
+    }
+
     /// Its length in seconds.
     #[must_use]
     pub fn seconds(&self) -> f64 {
@@ -96,7 +101,7 @@ pub struct StreamFacts {
     pub clock_jumps: Vec<ClockJump>,
     /// Stretches of one time line each: one more than clock jumps, at most [`LISTED`]. Gaps do not end a stretch.
     pub stretches: Vec<Span>,
-    /// Where samples were, by stretch: a stretch without its gaps. At most [`LISTED`]; kept while ingest runs.
+    /// Where samples were, by stretch: a stretch without its gaps. At most twice [`LISTED`]; kept while ingest runs.
     #[serde(skip)]
     pub covered: Vec<(u64, Span)>,
     /// Whether the times come from a declared rate or duration, and not from stamps.

@@ -137,3 +137,33 @@ schema! {
         flags: String = "codes of what to know about the image's signals, joined by commas (docs/ledger.md); empty when there is nothing",
     }
 }
+
+impl FrameRow {
+    /// A row of an image of which nothing but its name and its reason is known.
+    #[must_use]
+    pub fn without_numbers(study: &str, session: &str, image: &str, reason: FrameReason) -> Self {
+        Self {
+            schema_version: RESULTS_SCHEMA_VERSION,
+            study: study.to_owned(),
+            session: session.to_owned(),
+            participant: None,
+            image: image.to_owned(),
+            time_utc: None,
+            reason,
+            bytes: 0,
+            width_px: None,
+            height_px: None,
+            gravity_mg: None,
+            stillness_mg: None,
+            pitch_deg: None,
+            roll_deg: None,
+            range_mm: None,
+            range_spread_mm: None,
+            range_samples: 0,
+            raters: 0,
+            sizes: 0,
+            range_distinct: 0,
+            flags: String::new(),
+        }
+    }
+}

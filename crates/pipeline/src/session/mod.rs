@@ -23,6 +23,7 @@ use marks::SessionMarks;
 pub(crate) use problems::without_host;
 use problems::{MARKS_CAMERA_FACT, bad_camera, link_out_of_study, missing_card, no_pose};
 use read::Read;
+pub(crate) use rows::ledger_of_failed;
 
 /// What one session gives.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -86,7 +87,7 @@ pub fn run_session(
     if let Err(problem) = fill(study, dir, options, reporter, &mut output) {
         output.status.failed = true;
         output.status.problems.push(problem);
-        output.frames = rows::ledger_of_failed(study, dir);
+        output.frames = ledger_of_failed(study, dir);
         output.status.images = output.frames.len();
     }
     for problem in &mut output.status.problems {

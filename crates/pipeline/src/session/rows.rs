@@ -199,7 +199,7 @@ pub(super) fn ledger(session: &Session<'_>, marks: &SessionMarks, results: &[Res
 }
 
 /// One row for every image on the card of a session of which nothing could be used, by file.
-pub(super) fn ledger_of_failed(study: &Study, dir: &SessionDir) -> Vec<FrameRow> {
+pub(crate) fn ledger_of_failed(study: &Study, dir: &SessionDir) -> Vec<FrameRow> {
     let (Some(card_dir), Some(images)) = (&dir.card, &study.profile.images) else { return Vec::new() };
     if !study.holds(card_dir) {
         return Vec::new();
@@ -207,46 +207,14 @@ pub(super) fn ledger_of_failed(study: &Study, dir: &SessionDir) -> Vec<FrameRow>
     let (Ok(card), Ok(patterns)) = (Card::list(card_dir), Patterns::new(&images.files)) else { return Vec::new() };
     let row = |file: &CardFile| FrameRow {
         bytes: u32::try_from(file.bytes).unwrap_or(u32::MAX),
-        ..row_without_numbers(&study.spec.name, &dir.name, None, &file.name, FrameReason::SessionFailed)
+        ..FrameRow::without_numbers(&study.spec.name, &dir.name, &file.name, FrameReason::SessionFailed)
     };
     card.fitting(&patterns).iter().map(row).collect()
 }
 
 fn empty_row(session: &Session<'_>, file: &str, reason: FrameReason) -> FrameRow {
     let participant = session.spec.participant.clone();
-    row_without_numbers(&session.study.spec.name, &session.dir.name, participant, file, reason)
-}
-
-fn row_without_numbers(
-    study: &str,
-    session: &str,
-    participant: Option<String>,
-    file: &str,
-    reason: FrameReason,
-) -> FrameRow {
-    FrameRow {
-        schema_version: RESULTS_SCHEMA_VERSION,
-        study: study.to_owned(),
-        session: session.to_owned(),
-        participant,
-        image: file.to_owned(),
-        time_utc: None,
-        reason,
-        bytes: 0,
-        width_px: None,
-        height_px: None,
-        gravity_mg: None,
-        stillness_mg: None,
-        pitch_deg: None,
-        roll_deg: None,
-        range_mm: None,
-        range_spread_mm: None,
-        range_samples: 0,
-        raters: 0,
-        sizes: 0,
-        range_distinct: 0,
-        flags: String::new(),
-    }
+    FrameRow { participant, ..FrameRow::without_numbers(&session.study.spec.name, &session.dir.name, file, reason) }
 }
 
 fn count(n: usize) -> u32 {

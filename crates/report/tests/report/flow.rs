@@ -1,6 +1,5 @@
 //! What became of the images.
 
-use model::results::RESULTS_SCHEMA_VERSION;
 use model::{FrameReason, FrameRow, Problem, ResultSink as _, RunMetadata, SessionStatus, Severity, Stage};
 use report::{
     ParquetSink, ReadError, Results, Table, compare, csv, flow, flow_in_short, frames_file, latex, left_out, terminal,
@@ -10,29 +9,7 @@ use report::{
 use crate::bench;
 
 fn frame(session: &str, reason: FrameReason, raters: u32) -> FrameRow {
-    FrameRow {
-        schema_version: RESULTS_SCHEMA_VERSION,
-        study: "by hand".to_owned(),
-        session: session.to_owned(),
-        participant: None,
-        image: "a.jpg".to_owned(),
-        time_utc: None,
-        reason,
-        bytes: 1,
-        width_px: None,
-        height_px: None,
-        gravity_mg: None,
-        stillness_mg: None,
-        pitch_deg: None,
-        roll_deg: None,
-        range_mm: None,
-        range_spread_mm: None,
-        range_samples: 0,
-        raters,
-        sizes: raters,
-        range_distinct: 0,
-        flags: String::new(),
-    }
+    FrameRow { bytes: 1, raters, sizes: raters, ..FrameRow::without_numbers("by hand", session, "a.jpg", reason) }
 }
 
 /// Three sessions: one with images, one without, one lost.
