@@ -8,17 +8,19 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::card::{Card, CardFile, Inputs, Patterns, open_hashing, too_large};
+use crate::fingerprint::Fingerprint;
 use crate::ingest::{IngestError, SessionSource};
 use crate::mcap_file::Keep;
 use crate::mcap_file::metadata::toml_text;
 use crate::profile::Profile;
 use crate::progress::{IngestProgress, NoProgress};
 use crate::read::SessionReader;
+use crate::recorded_camera::RecordedCamera;
 
 /// Version of what ingest writes. A change of layout or meaning gives another number, and all sessions are ingested anew.
-pub const INGEST_VERSION: u32 = 3;
+pub const INGEST_VERSION: u32 = 4;
 
-/// SHA-256 over the session's name, the profile, the camera, the time zone, [`INGEST_VERSION`], and name and SHA-256 of
+/// SHA-256 over the session's name, the profile, what is recorded of the camera, the time zone, [`INGEST_VERSION`], and name and SHA-256 of
 /// every file that the profile's patterns fit. Reads all of them.
 ///
 /// # Errors
@@ -49,6 +51,21 @@ pub(crate) fn inputs_key_with(source: &SessionSource, progress: &dyn IngestProgr
     key_of(source, &inputs)
 }
 
+/// What the system says of the files that [`inputs_key`] reads, under the same settings: equal where the key is.
+///
+/// # Errors
+/// As [`inputs_key`].
+pub fn inputs_fingerprint(source: &SessionSource) -> Result<Fingerprint, IngestError> {
+    source.profile.check(Path::new("device profile"))?;
+    let card = source.list_card()?;
+    let mut fingerprint = Fingerprint::default();
+    fingerprint.add_text(&key_of(source, &Inputs::default())?);
+    for file in input_files(&card, &source.profile)? {
+        fingerprint.add_file(&file.name, &file.path);
+    }
+    Ok(fingerprint)
+}
+
 /// Whether `out` is an MCAP file with that key. False for anything that is not such a file.
 #[must_use]
 pub fn ingest_is_current(out: &Path, key: &str) -> bool {
@@ -69,7 +86,7 @@ struct KeyParts<'a> {
     ingest_version: u32,
     session: &'a str,
     profile: String,
-    camera: String,
+    camera: &'a RecordedCamera,
     time_zone: String,
     clock_zero_utc: Option<Timestamp>,
     inputs: &'a std::collections::BTreeMap<String, String>,
@@ -80,7 +97,7 @@ pub(crate) fn key_of(source: &SessionSource, inputs: &Inputs) -> Result<String, 
         ingest_version: INGEST_VERSION,
         session: &source.session,
         profile: toml_text("profile", &source.profile)?,
-        camera: toml_text("camera", &source.camera_spec)?,
+        camera: &source.camera,
         time_zone: zone_name(&source.time_zone),
         clock_zero_utc: source.clock_zero_utc,
         inputs: &inputs.sha256,

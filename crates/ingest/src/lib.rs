@@ -15,7 +15,7 @@
 //!
 //! # Example
 //! ```no_run
-//! use aim_batch_ingest::{NoProgress, Profile, SessionReader, SessionSource, camera, ingest_session};
+//! use aim_batch_ingest::{NoProgress, Profile, RecordedCamera, SessionReader, SessionSource, camera, ingest_session};
 //! use std::path::Path;
 //!
 //! let devices = Path::new("study/devices");
@@ -23,7 +23,7 @@
 //!     session: "P01".to_owned(),
 //!     card_dir: "study/cards/P01".into(),
 //!     profile: Profile::load("aim2-packets", devices)?,
-//!     camera_spec: camera::load("aim2-raw", devices)?,
+//!     camera: RecordedCamera::Calibrated(camera::load("aim2-raw", devices)?),
 //!     time_zone: jiff::tz::TimeZone::UTC,
 //!     clock_zero_utc: None,
 //!     program: "example 1.0".to_owned(),
@@ -43,6 +43,7 @@ pub mod camera;
 pub mod card;
 pub mod config;
 mod devices;
+mod fingerprint;
 mod ingest;
 mod key;
 mod mcap_file;
@@ -50,17 +51,22 @@ pub mod parse;
 pub mod profile;
 mod progress;
 mod read;
+mod recorded_camera;
 mod sample;
 mod summary;
 mod thumbnail;
 pub mod timeline;
 
+pub use card::UNREADABLE;
 pub use config::ConfigError;
+pub use fingerprint::Fingerprint;
 pub use ingest::{IngestError, Ingested, SessionSource, ingest_if_changed, ingest_session, survey_session};
-pub use key::{INGEST_VERSION, ingest_is_current, inputs_key};
+pub use key::{INGEST_VERSION, ingest_is_current, inputs_fingerprint, inputs_key};
+pub use mcap_file::is_partial;
 pub use profile::Profile;
-pub use progress::{IngestProgress, NoProgress};
+pub use progress::{ByteBudget, IngestProgress, NoProgress};
 pub use read::{ReadError, SessionMetadata, SessionReader};
+pub use recorded_camera::RecordedCamera;
 pub use sample::Sample;
 pub use summary::{Counts, DroppedImage, ImageEntry, IngestSummary};
 pub use thumbnail::{Thumbnail, ThumbnailError, thumbnail};

@@ -61,7 +61,7 @@ pub use marks::{Feature, Mark, ObjectMarks};
 pub use measure::{Container, MeasureError, Measured, height_by_paper_mm, height_by_ray_mm, measure};
 pub use pose::{Pose, PoseError};
 pub use results::{FrameRow, Level, ResultRow};
-pub use sink::{ResultSink, RunMetadata};
+pub use sink::{ResultSink, RunLog, RunMetadata, SessionLog, StageLog};
 pub use stats::{ErrorStats, median};
 pub use status::{Problem, SessionStatus, Severity, Stage};
 pub use table::{Note, PrintedRow, PrintedSummary, PrintedTable, Selection, TableLayout, TableSpec};

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use sha2::{Digest, Sha256};
 
-use model::{CameraSpec, Problem};
+use model::Problem;
 use serde::de::DeserializeOwned;
 
 use crate::profile::Profile;
+use crate::recorded_camera::RecordedCamera;
 use crate::summary::{Counts, DroppedImage};
 use crate::timeline::Timeline;
 
@@ -35,7 +36,7 @@ pub(crate) struct Facts {
     pub counts: Counts,
     pub timeline: Timeline,
     pub profile: Profile,
-    pub camera: CameraSpec,
+    pub camera: RecordedCamera,
     pub inputs_sha256: BTreeMap<String, String>,
     pub dropped_images: Vec<DroppedImage>,
     pub problems: Vec<Problem>,

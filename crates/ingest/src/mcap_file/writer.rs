@@ -1,6 +1,7 @@
 //! Writes the MCAP file of a session under a temporary name, then renames it.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
@@ -20,6 +21,16 @@ use crate::timeline::{Block, Times};
 
 /// Fixed, so that equal input gives equal bytes whatever the version of the library.
 const LIBRARY: &str = "aim-batch-ingest";
+
+const PARTIAL_PREFIX: &str = ".ingest-";
+const PARTIAL_SUFFIX: &str = ".partial";
+
+/// Whether a file of that name is one that ingest writes before it gives it its name. Where no ingest is at work, it was
+/// left by one that was killed.
+#[must_use]
+pub fn is_partial(name: &OsStr) -> bool {
+    name.to_str().is_some_and(|name| name.starts_with(PARTIAL_PREFIX) && name.ends_with(PARTIAL_SUFFIX))
+}
 
 /// Why the MCAP file cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -62,7 +73,7 @@ impl SessionWriter {
         let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         std::fs::create_dir_all(folder)?;
         let mut builder = tempfile::Builder::new();
-        builder.prefix(".ingest-").suffix(".partial");
+        builder.prefix(PARTIAL_PREFIX).suffix(PARTIAL_SUFFIX);
         #[cfg(unix)]
         {
             // A temporary file is its owner's alone; the MCAP file has the permissions of any new file.

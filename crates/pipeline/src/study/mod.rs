@@ -15,6 +15,7 @@ use model::{Camera, CameraSpec, TableSpec};
 
 pub use error::StudyError;
 pub use objects::Object;
+pub(crate) use sessions::marks_in;
 pub use sessions::{SessionDir, SessionSpec};
 pub use spec::{
     GravityCalibrate, MarksSpec, MeasureSpec, MountSpec, PrintedFiles, RangeCone, SelectSpec, SignalsSpec, StudySpec,
@@ -97,12 +98,16 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError`] when the session names a camera that cannot be read.
-    pub fn marks_camera_of_session(&self, session: &SessionSpec, camera: Camera) -> Result<Option<Camera>, StudyError> {
+    pub fn marks_camera_of_session(
+        &self,
+        session: &SessionSpec,
+        camera: &(CameraSpec, Camera),
+    ) -> Result<Option<(CameraSpec, Camera)>, StudyError> {
         match (&session.marks_camera, &self.marks_camera) {
-            (Some(name), _) => load_camera(name, &self.dir.join("devices")).map(|(_, camera)| Some(camera)),
+            (Some(name), _) => load_camera(name, &self.dir.join("devices")).map(Some),
             (None, Some(_)) if session.camera.is_some() => Ok(None),
-            (None, Some((_, of_study))) => Ok(Some(*of_study)),
-            (None, None) => Ok(Some(camera)),
+            (None, Some(of_study)) => Ok(Some(of_study.clone())),
+            (None, None) => Ok(Some(camera.clone())),
         }
     }
 
