@@ -9,6 +9,7 @@ mod damage;
 mod documents;
 mod flow;
 mod inspect;
+mod large;
 mod layers;
 mod measure;
 mod project;

@@ -299,9 +299,37 @@ pub struct SimulateArgs {
     /// Seed of all randomness
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Everything but the pictures
+    /// Everything but the pictures (published-bench)
     #[arg(long)]
     pub no_pictures: bool,
+    /// How large it is
+    #[command(flatten)]
+    pub large: LargeArgs,
+}
+
+/// Options of the preset `large`, and of no other.
+#[derive(Debug, Default, PartialEq, clap::Args)]
+#[command(next_help_heading = "Preset large")]
+pub struct LargeArgs {
+    /// Sessions; default: 300
+    #[arg(long, value_name = "N")]
+    pub sessions: Option<u32>,
+    /// Images of each session; default: 24
+    #[arg(long, value_name = "N")]
+    pub images: Option<u32>,
+    /// Size of the pictures; default: 320x240
+    #[arg(long, value_name = "WxH", value_parser = parse_size_px)]
+    pub image_size: Option<[u32; 2]>,
+    /// Per cent of the sessions that are damaged, each in another way; default: 0
+    #[arg(long, value_name = "PCT")]
+    pub damage: Option<f64>,
+}
+
+/// `320x240`.
+fn parse_size_px(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.parse::<u32>().ok();
+    let size = text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
+    size.ok_or_else(|| "expected width and height in pixels, such as 320x240".to_owned())
 }
 
 /// Studies that can be made.
@@ -309,6 +337,8 @@ pub struct SimulateArgs {
 pub enum Preset {
     /// The paper's bench and worn sessions, rebuilt from the published readings
     PublishedBench,
+    /// Many sessions with small pictures, for load tests; some of them damaged, if asked for
+    Large,
 }
 
 #[cfg(test)]

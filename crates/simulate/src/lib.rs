@@ -5,7 +5,8 @@
 //! - [`render`]: a scene and a camera at a pose -> a picture;
 //! - [`sensors`]: the motion of a head -> packets of an accelerometer and of a range sensor;
 //! - [`study`]: the folder, its images' names, marks in LabelMe's format;
-//! - [`published`]: the preset `published-bench`, the paper's bench rebuilt from its published readings.
+//! - [`published`]: the preset `published-bench`, the paper's bench rebuilt from its published readings;
+//! - [`large`]: the preset `large`, many sessions for load tests.
 //!
 //! ```no_run
 //! use aim_batch_simulate::published::{Options, published_bench};
@@ -16,6 +17,7 @@
 #![warn(missing_docs)]
 
 mod error;
+pub mod large;
 pub mod published;
 pub mod render;
 pub mod scene;
@@ -23,4 +25,5 @@ pub mod sensors;
 pub mod study;
 
 pub use error::SimulateError;
+pub use large::{LargeOptions, large};
 pub use published::{Options, Summary, published_bench};
