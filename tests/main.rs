@@ -7,6 +7,7 @@ mod bad_input;
 mod check;
 mod damage;
 mod documents;
+mod faults;
 mod flow;
 mod inspect;
 mod large;

@@ -2,26 +2,58 @@
 
 use std::fs::Metadata;
 use std::path::Path;
-use std::time::{Duration, SystemTime};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use sha2::{Digest, Sha256};
 
 /// File systems keep times in steps of up to 2 s (FAT): a file that changed so recently may change again unseen.
-const TIME_STEP: Duration = Duration::from_secs(2);
+const TIME_STEP_NS: i128 = 2_000_000_000;
+
+/// What the system says of a file.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct FileStamp {
+    bytes: u64,
+    modified_ns: i128,
+    /// When the inode changed, which no program can set; zero where there is no such time.
+    changed_ns: i128,
+    inode: u64,
+}
+
+impl FileStamp {
+    /// Size of the file.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+}
+
+impl From<&Metadata> for FileStamp {
+    fn from(metadata: &Metadata) -> Self {
+        let modified_ns = nanoseconds(metadata.modified().unwrap_or(UNIX_EPOCH));
+        let stamp = Self { bytes: metadata.len(), modified_ns, ..Self::default() };
+        #[cfg(unix)]
+        let stamp = {
+            use std::os::unix::fs::MetadataExt as _;
+            let changed_ns = i128::from(metadata.ctime()) * 1_000_000_000 + i128::from(metadata.ctime_nsec());
+            Self { changed_ns, inode: metadata.ino(), ..stamp }
+        };
+        stamp
+    }
+}
 
 /// A digest over what the system says of files. Equal fingerprints of the same paths mean equal contents, as far as the
 /// system tells the truth; on Unix a change of contents changes the inode's own time, which no program can set.
 #[derive(Debug, Clone)]
 pub struct Fingerprint {
     hasher: Sha256,
-    latest: SystemTime,
+    latest_ns: i128,
     bytes: u64,
-    taken: SystemTime,
+    taken_ns: i128,
 }
 
 impl Default for Fingerprint {
     fn default() -> Self {
-        Self { hasher: Sha256::new(), latest: SystemTime::UNIX_EPOCH, bytes: 0, taken: SystemTime::now() }
+        Self { hasher: Sha256::new(), latest_ns: 0, bytes: 0, taken_ns: nanoseconds(SystemTime::now()) }
     }
 }
 
@@ -34,27 +66,24 @@ impl Fingerprint {
 
     /// Adds a file, which may be missing. Files must come in a defined order.
     pub fn add_file(&mut self, name: &str, path: &Path) {
-        self.add_text(name);
         match std::fs::metadata(path) {
-            Ok(metadata) => self.add_metadata(&metadata),
-            Err(error) => self.add_text(&error.kind().to_string()),
+            Ok(metadata) => self.add_stamp(name, &FileStamp::from(&metadata)),
+            Err(error) => {
+                self.add_text(name);
+                self.add_text(&error.kind().to_string());
+            }
         }
     }
 
-    fn add_metadata(&mut self, metadata: &Metadata) {
-        let modified = metadata.modified().unwrap_or(SystemTime::UNIX_EPOCH);
-        let mut numbers = vec![i128::from(metadata.len()), nanoseconds(modified)];
-        self.latest = self.latest.max(modified);
-        self.bytes += metadata.len();
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::MetadataExt as _;
-            let changed_ns = i128::from(metadata.ctime()) * 1_000_000_000 + i128::from(metadata.ctime_nsec());
-            numbers.extend([changed_ns, i128::from(metadata.ino())]);
-            let changed = Duration::from_nanos(u64::try_from(changed_ns).unwrap_or(0));
-            self.latest = self.latest.max(SystemTime::UNIX_EPOCH + changed);
+    /// Adds a file by what was said of it.
+    pub fn add_stamp(&mut self, name: &str, stamp: &FileStamp) {
+        let FileStamp { bytes, modified_ns, changed_ns, inode } = stamp;
+        self.add_text(name);
+        for number in [i128::from(*bytes), *modified_ns, *changed_ns, i128::from(*inode)] {
+            self.hasher.update(number.to_le_bytes());
         }
-        numbers.iter().for_each(|number| self.hasher.update(number.to_le_bytes()));
+        self.latest_ns = self.latest_ns.max(*modified_ns).max(*changed_ns);
+        self.bytes += bytes;
     }
 
     /// Sum of the sizes of the files.
@@ -72,13 +101,13 @@ impl Fingerprint {
     /// In hexadecimal, or none when a file changed so shortly before that it may have changed again without a trace.
     #[must_use]
     pub fn settled(&self) -> Option<String> {
-        (self.latest + TIME_STEP <= self.taken).then(|| self.hex())
+        (self.latest_ns + TIME_STEP_NS <= self.taken_ns).then(|| self.hex())
     }
 }
 
 fn nanoseconds(time: SystemTime) -> i128 {
     let since = |duration: Duration| i128::try_from(duration.as_nanos()).unwrap_or(i128::MAX);
-    match time.duration_since(SystemTime::UNIX_EPOCH) {
+    match time.duration_since(UNIX_EPOCH) {
         Ok(after) => since(after),
         Err(before) => -since(before.duration()),
     }
@@ -102,7 +131,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("a");
         std::fs::write(&path, b"before").unwrap();
-        let long_ago = SystemTime::UNIX_EPOCH + Duration::from_secs(1_000_000);
+        let long_ago = UNIX_EPOCH + Duration::from_secs(1_000_000);
         let times = FileTimes::new().set_modified(long_ago);
         File::options().write(true).open(&path).unwrap().set_times(times).unwrap();
         let before = of(&path);
@@ -124,7 +153,7 @@ mod tests {
         std::fs::write(&path, b"x").unwrap();
         let mut fingerprint = of(&path);
         assert_eq!(fingerprint.settled(), None);
-        fingerprint.taken += Duration::from_secs(10);
+        fingerprint.taken_ns += 10_000_000_000;
         assert_eq!(fingerprint.settled(), Some(fingerprint.hex()));
     }
 }

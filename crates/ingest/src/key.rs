@@ -56,12 +56,11 @@ pub(crate) fn inputs_key_with(source: &SessionSource, progress: &dyn IngestProgr
 /// # Errors
 /// As [`inputs_key`].
 pub fn inputs_fingerprint(source: &SessionSource) -> Result<Fingerprint, IngestError> {
-    source.profile.check(Path::new("device profile"))?;
     let card = source.list_card()?;
     let mut fingerprint = Fingerprint::default();
     fingerprint.add_text(&key_of(source, &Inputs::default())?);
     for file in input_files(&card, &source.profile)? {
-        fingerprint.add_file(&file.name, &file.path);
+        fingerprint.add_stamp(&file.name, &file.stamp);
     }
     Ok(fingerprint)
 }

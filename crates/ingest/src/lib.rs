@@ -59,7 +59,7 @@ pub mod timeline;
 
 pub use card::UNREADABLE;
 pub use config::ConfigError;
-pub use fingerprint::Fingerprint;
+pub use fingerprint::{FileStamp, Fingerprint};
 pub use ingest::{IngestError, Ingested, SessionSource, ingest_if_changed, ingest_session, survey_session};
 pub use key::{INGEST_VERSION, ingest_is_current, inputs_fingerprint, inputs_key};
 pub use mcap_file::is_partial;

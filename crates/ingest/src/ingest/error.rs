@@ -56,7 +56,7 @@ pub enum IngestError {
     #[error("stopped before the card was read to its end")]
     Stopped,
     /// The MCAP file cannot be written.
-    #[error("cannot write {path}: {source}; check free space and permissions")]
+    #[error("cannot write {path}: {source}")]
     Write {
         /// The file.
         path: PathBuf,

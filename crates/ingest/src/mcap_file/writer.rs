@@ -40,10 +40,20 @@ pub enum WriteError {
     Io(#[from] std::io::Error),
     /// The MCAP library refuses.
     #[error(transparent)]
-    Mcap(#[from] McapError),
+    Mcap(McapError),
     /// A message has no schema: a defect of the program.
     #[error("the message type of {0} has no schema")]
     NoSchema(String),
+}
+
+impl From<McapError> for WriteError {
+    /// The library's own words do not say what the system said.
+    fn from(error: McapError) -> Self {
+        match error {
+            McapError::Io(error) => Self::Io(error),
+            other => Self::Mcap(other),
+        }
+    }
 }
 
 /// What becomes of images.

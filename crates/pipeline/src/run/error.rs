@@ -28,6 +28,7 @@ pub enum Halted {
     #[error("{error}; {}. What was done is kept; run again to go on", error.remedy())]
     Ingest {
         /// What happened to the first session that met it.
+        #[source]
         error: Box<IngestError>,
     },
     /// The worker threads.

@@ -23,7 +23,7 @@ impl Tally {
         let mut tally = Self { statuses: statuses(current), logs: Vec::new() };
         for Done { status, log } in done {
             tally.statuses.insert(status.session.clone(), status);
-            tally.logs.push(log);
+            tally.logs.extend(Some(log).filter(|log| log.ingest_s.or(log.signals_s).or(log.measure_s).is_some()));
         }
         tally
     }

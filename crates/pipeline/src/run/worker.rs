@@ -144,7 +144,8 @@ impl Worker<'_> {
         let ingested = self.ingest_card(&source, self.force)?;
         let after = ingest::inputs_fingerprint(&source).map_err(refuse)?;
         let seconds = start.elapsed().as_secs_f64();
-        log.ingest_s = Some(seconds);
+        // A card that was only hashed, and is what it was, was not ingested.
+        log.ingest_s = matches!(ingested, Ingested::Fresh(_)).then_some(seconds);
         let changed = (before.hex() != after.hex()).then(|| changed_while_read(&plan.dir.name));
         self.keep_recording(plan, ingested.key(), before.settled().filter(|_| changed.is_none()), seconds)?;
         Ok((ingested.key().to_owned(), changed))

@@ -23,9 +23,14 @@ const TABLES: &str = "
         fingerprint   TEXT,           -- of its input files: names, sizes, times
         made_utc      TEXT NOT NULL,
         seconds       REAL NOT NULL,
-        output        TEXT NOT NULL,  -- JSON
         output_sha256 TEXT NOT NULL,
         status        TEXT,           -- JSON: how the session fared, of stage measure
+        PRIMARY KEY (session, stage)
+    );
+    CREATE TABLE IF NOT EXISTS output ( -- apart, so that a look at all stages does not read them
+        session       TEXT NOT NULL,
+        stage         TEXT NOT NULL,
+        json          TEXT NOT NULL,
         PRIMARY KEY (session, stage)
     );
     CREATE TABLE IF NOT EXISTS written (
@@ -127,7 +132,8 @@ impl State {
     /// What a stage of a session gave; none when it is not what was written.
     pub fn output(&self, session: &str, stage: Stage) -> Result<Option<String>, WorkError> {
         let found: Option<(String, String)> = self.with(|db| {
-            let query = "SELECT output, output_sha256 FROM stage WHERE session = ?1 AND stage = ?2";
+            let query = "SELECT json, output_sha256 FROM stage JOIN output USING (session, stage) \
+                         WHERE session = ?1 AND stage = ?2";
             db.query_row(query, [session, stage.code()], |row| Ok((row.get(0)?, row.get(1)?))).optional()
         })?;
         let good = found.filter(|(output, sha256)| sha256_of_bytes(output.as_bytes()) == *sha256);
@@ -141,8 +147,11 @@ impl State {
         self.with(|db| {
             let (name, now) = (stage.code(), Timestamp::now().to_string());
             let StageOutput { key, fingerprint, seconds, output, .. } = output;
-            let insert = "INSERT OR REPLACE INTO stage VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)";
-            db.execute(insert, params![session, name, key, fingerprint, now, seconds, output, sha256, status])
+            let both = db.unchecked_transaction()?;
+            let stage = "INSERT OR REPLACE INTO stage VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)";
+            both.execute(stage, params![session, name, key, fingerprint, now, seconds, sha256, status])?;
+            both.execute("INSERT OR REPLACE INTO output VALUES (?1, ?2, ?3)", params![session, name, output])?;
+            both.commit()
         })?;
         Ok(sha256)
     }
@@ -155,7 +164,12 @@ impl State {
 
     /// Forgets a session.
     pub fn forget(&self, session: &str) -> Result<(), WorkError> {
-        self.with(|db| db.execute("DELETE FROM stage WHERE session = ?1", [session])).map(|_| ())
+        self.with(|db| {
+            let both = db.unchecked_transaction()?;
+            both.execute("DELETE FROM stage WHERE session = ?1", [session])?;
+            both.execute("DELETE FROM output WHERE session = ?1", [session])?;
+            both.commit()
+        })
     }
 
     /// What was last written as results.
@@ -220,6 +234,7 @@ const BUSY: Duration = Duration::from_secs(30);
 fn connect(path: &Path) -> Result<Connection, Refused> {
     let connection = Connection::open(path)?;
     connection.busy_timeout(BUSY)?;
+    connection.pragma_update(None, "page_size", 32 * 1024)?; // for a new file: outputs are long
     // A rollback journal, not a write-ahead log: work folders lie on network file systems too.
     connection.pragma_update(None, "journal_mode", "DELETE")?;
     connection.pragma_update(None, "synchronous", "FULL")?;
