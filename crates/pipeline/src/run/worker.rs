@@ -141,13 +141,17 @@ impl Worker<'_> {
         let refuse = |error: IngestError| of_ingest(&plan.dir.name, error);
         let start = Instant::now();
         let before = ingest::inputs_fingerprint(&source).map_err(refuse)?;
-        let ingested = self.ingest_card(&source, self.force)?;
+        let is_mixture = plan.kept.ingest.as_ref().is_some_and(|kept| kept.key.is_empty());
+        let ingested = self.ingest_card(&source, self.force || is_mixture)?;
         let after = ingest::inputs_fingerprint(&source).map_err(refuse)?;
         let seconds = start.elapsed().as_secs_f64();
         // A card that was only hashed, and is what it was, was not ingested.
         log.ingest_s = matches!(ingested, Ingested::Fresh(_)).then_some(seconds);
         let changed = (before.hex() != after.hex()).then(|| changed_while_read(&plan.dir.name));
-        self.keep_recording(plan, ingested.key(), before.settled().filter(|_| changed.is_none()), seconds)?;
+        match &changed {
+            None => self.keep_recording(plan, ingested.key(), before.settled(), seconds)?,
+            Some(_) => self.keep_recording(plan, "", None, seconds)?,
+        }
         Ok((ingested.key().to_owned(), changed))
     }
 

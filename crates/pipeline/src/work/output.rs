@@ -5,7 +5,7 @@ use model::SessionStatus;
 /// A stage of a session that was done.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct KeptStage {
-    /// What it was made from; empty when it failed, and is to be tried again.
+    /// What it was made from; empty when it failed, or its input changed meanwhile: it is then done again.
     pub key: String,
     /// What the system said of its input files then; none when they may have changed unseen.
     pub fingerprint: Option<String>,

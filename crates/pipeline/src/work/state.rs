@@ -19,7 +19,7 @@ const TABLES: &str = "
     CREATE TABLE IF NOT EXISTS stage (
         session       TEXT NOT NULL,
         stage         TEXT NOT NULL,  -- ingest, signals, measure
-        key           TEXT NOT NULL,  -- SHA-256 of what it was made from; empty: failed, to be tried again
+        key           TEXT NOT NULL,  -- SHA-256 of what it was made from; empty: to be done again
         fingerprint   TEXT,           -- of its input files: names, sizes, times
         made_utc      TEXT NOT NULL,
         seconds       REAL NOT NULL,
