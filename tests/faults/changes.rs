@@ -61,6 +61,10 @@ fn a_changed_camera_measures_again_and_reads_no_card() {
     bench.edit(&camera, |text| text.replacen("focal_mm = 2.4", "focal_mm = 2.41", 1));
     assert_eq!(bench.run_well(), bench.undisturbed());
     assert_eq!(bench.done(), [0, 0, ALL]);
+    let said = bench.status(&[]);
+    assert!(said.contains("6 recordings have the calibration of an earlier camera"), "{said}");
+    assert_exit(&bench.run_with(&["--force"]), 0);
+    assert!(!bench.status(&[]).contains("earlier camera"));
 }
 
 #[test]

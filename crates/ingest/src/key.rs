@@ -15,13 +15,13 @@ use crate::mcap_file::metadata::toml_text;
 use crate::profile::Profile;
 use crate::progress::{IngestProgress, NoProgress};
 use crate::read::SessionReader;
-use crate::recorded_camera::RecordedCamera;
 
 /// Version of what ingest writes. A change of layout or meaning gives another number, and all sessions are ingested anew.
 pub const INGEST_VERSION: u32 = 4;
 
-/// SHA-256 over the session's name, the profile, what is recorded of the camera, the time zone, [`INGEST_VERSION`], and name and SHA-256 of
-/// every file that the profile's patterns fit. Reads all of them.
+/// SHA-256 over the session's name, the profile, the size of the camera's pictures, the time zone, [`INGEST_VERSION`], and name and SHA-256 of
+/// every file that the profile's patterns fit. Reads all of them. The camera's calibration is not in it: the file has it for
+/// those who look at pictures, and nothing else in the file depends on it.
 ///
 /// # Errors
 /// [`IngestError`] when there is no card, or the profile contradicts itself.
@@ -85,7 +85,7 @@ struct KeyParts<'a> {
     ingest_version: u32,
     session: &'a str,
     profile: String,
-    camera: &'a RecordedCamera,
+    picture_size_px: (u32, u32),
     time_zone: String,
     clock_zero_utc: Option<Timestamp>,
     inputs: &'a std::collections::BTreeMap<String, String>,
@@ -96,7 +96,7 @@ pub(crate) fn key_of(source: &SessionSource, inputs: &Inputs) -> Result<String, 
         ingest_version: INGEST_VERSION,
         session: &source.session,
         profile: toml_text("profile", &source.profile)?,
-        camera: &source.camera,
+        picture_size_px: (source.camera_spec.width_px, source.camera_spec.height_px),
         time_zone: zone_name(&source.time_zone),
         clock_zero_utc: source.clock_zero_utc,
         inputs: &inputs.sha256,

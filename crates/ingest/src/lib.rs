@@ -15,7 +15,7 @@
 //!
 //! # Example
 //! ```no_run
-//! use aim_batch_ingest::{NoProgress, Profile, RecordedCamera, SessionReader, SessionSource, camera, ingest_session};
+//! use aim_batch_ingest::{NoProgress, Profile, SessionReader, SessionSource, camera, ingest_session};
 //! use std::path::Path;
 //!
 //! let devices = Path::new("study/devices");
@@ -23,7 +23,7 @@
 //!     session: "P01".to_owned(),
 //!     card_dir: "study/cards/P01".into(),
 //!     profile: Profile::load("aim2-packets", devices)?,
-//!     camera: RecordedCamera::Calibrated(camera::load("aim2-raw", devices)?),
+//!     camera_spec: camera::load("aim2-raw", devices)?,
 //!     time_zone: jiff::tz::TimeZone::UTC,
 //!     clock_zero_utc: None,
 //!     program: "example 1.0".to_owned(),
@@ -51,7 +51,6 @@ pub mod parse;
 pub mod profile;
 mod progress;
 mod read;
-mod recorded_camera;
 mod sample;
 mod summary;
 mod thumbnail;
@@ -66,7 +65,6 @@ pub use mcap_file::is_partial;
 pub use profile::Profile;
 pub use progress::{ByteBudget, IngestProgress, NoProgress};
 pub use read::{ReadError, SessionMetadata, SessionReader};
-pub use recorded_camera::RecordedCamera;
 pub use sample::Sample;
 pub use summary::{Counts, DroppedImage, ImageEntry, IngestSummary};
 pub use thumbnail::{Thumbnail, ThumbnailError, thumbnail};

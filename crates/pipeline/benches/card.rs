@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use ingest::{Profile, RecordedCamera, SessionSource, camera};
+use ingest::{Profile, SessionSource, camera};
 use jiff::tz::TimeZone;
 
 /// 2026-03-01T09:00:00Z.
@@ -61,7 +61,7 @@ pub fn source(card: &Path) -> SessionSource {
         session: "card".to_owned(),
         card_dir: card.to_owned(),
         profile: Profile::load("aim2-packets", devices).unwrap(),
-        camera: RecordedCamera::Calibrated(camera::load("aim2-raw", devices).unwrap()),
+        camera_spec: camera::load("aim2-raw", devices).unwrap(),
         time_zone: TimeZone::UTC,
         clock_zero_utc: None,
         program: "benchmark".to_owned(),

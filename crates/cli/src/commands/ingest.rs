@@ -1,6 +1,6 @@
 //! `ingest`: one card to one MCAP file.
 
-use ::ingest::{Profile, RecordedCamera, SessionSource, camera, ingest_session};
+use ::ingest::{Profile, SessionSource, camera, ingest_session};
 use anyhow::{Context, anyhow};
 use model::Severity;
 
@@ -16,7 +16,7 @@ pub fn run(args: &IngestArgs, bars: &Bars) -> Result<Outcome, Failure> {
         session: session.unwrap_or_else(|| "session".to_owned()),
         card_dir: args.card.clone(),
         profile: Profile::load(&args.profile, &args.devices).map_err(Failure::usage)?,
-        camera: RecordedCamera::Calibrated(camera::load(&args.camera, &args.devices).map_err(Failure::usage)?),
+        camera_spec: camera::load(&args.camera, &args.devices).map_err(Failure::usage)?,
         time_zone: jiff::tz::TimeZone::get(&args.time_zone)
             .with_context(|| format!("--time-zone {}: expected an IANA name such as America/Chicago", args.time_zone))
             .map_err(Failure::Usage)?,
@@ -33,7 +33,7 @@ pub fn run(args: &IngestArgs, bars: &Bars) -> Result<Outcome, Failure> {
         summary.counts.range,
         summary.files,
         source.profile.name,
-        source.camera.name().unwrap_or_default(),
+        source.camera_spec.name,
     ))?;
     for image in &summary.dropped_images {
         tell(&format!("dropped {}: {} ({})\n", image.file, image.reason.meaning(), image.reason))?;

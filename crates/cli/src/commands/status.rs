@@ -52,6 +52,14 @@ fn text(state: &StudyState, all: bool) -> String {
     for session in listed {
         let _ = writeln!(text, "  {:width$}  {}", session.session, describe(session));
     }
+    let old = count(|session| session.has_old_calibration);
+    if old > 0 {
+        let _ = writeln!(
+            text,
+            "{old} recordings have the calibration of an earlier camera, which viewers show; sizes do not depend on it\n  -> \
+             aim-batch run --force ingests them anew"
+        );
+    }
     if !state.removed.is_empty() {
         let names = state.removed.join(", ");
         let _ = writeln!(
@@ -108,6 +116,7 @@ struct Session<'a> {
     signals_is_current: bool,
     measure_is_current: bool,
     bytes_to_read: u64,
+    has_old_calibration: bool,
     measured_utc: Option<&'a str>,
     status: Option<&'a SessionStatus>,
 }
@@ -120,6 +129,7 @@ impl<'a> From<&'a SessionState> for Session<'a> {
             signals_is_current: session.current.signals,
             measure_is_current: session.current.measure,
             bytes_to_read: session.bytes_to_read,
+            has_old_calibration: session.has_old_calibration,
             measured_utc: session.measured_utc.as_deref(),
             status: session.status.as_ref(),
         }

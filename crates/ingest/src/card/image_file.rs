@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::Path;
 
 use jiff::tz::TimeZone;
-use model::{FrameReason, UtcNs};
+use model::{CameraSpec, FrameReason, UtcNs};
 
 use super::{CardFile, Inputs, open_hashing, size};
 use crate::parse::image_extent::{self, ImageExtent};
@@ -12,7 +12,6 @@ use crate::parse::image_header::{self, Encoding};
 use crate::parse::image_time::{self, TimeError};
 use crate::profile::ImageTime;
 use crate::progress::IngestProgress;
-use crate::recorded_camera::RecordedCamera;
 use crate::summary::{DroppedImage, ImageEntry};
 
 /// An image is held in memory; a camera that a head carries writes a few MB.
@@ -78,7 +77,7 @@ pub(crate) fn judge_image(
     bytes: Vec<u8>,
     time: &ImageTime,
     zone: &TimeZone,
-    camera: &RecordedCamera,
+    camera: &CameraSpec,
 ) -> Result<TakenImage, DroppedImage> {
     let known = time_of(file, &bytes, time, zone);
     let time = known.as_ref().ok().map(|(time, _)| *time);
@@ -99,9 +98,8 @@ pub(crate) fn judge_image(
     };
     let extent = image_extent::extent(encoding, &bytes);
     let extent = extent.map_err(|damage| dropped(FrameReason::DamagedImage, damage.to_string()))?;
-    if (width_px, height_px) != camera.size_px() {
-        let (expected_width_px, expected_height_px) = camera.size_px();
-        let expected = format!("the camera takes {expected_width_px} x {expected_height_px} px");
+    if (width_px, height_px) != (camera.width_px, camera.height_px) {
+        let expected = format!("camera '{}' takes {} x {} px", camera.name, camera.width_px, camera.height_px);
         let detail = format!("{expected}, this one is {width_px} x {height_px} px");
         return Err(dropped(FrameReason::WrongSize, detail));
     }

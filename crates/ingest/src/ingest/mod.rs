@@ -17,10 +17,10 @@ use crate::key;
 use crate::mcap_file::Keep;
 use crate::profile::Profile;
 use crate::progress::IngestProgress;
-use crate::recorded_camera::RecordedCamera;
 use crate::summary::IngestSummary;
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
+use model::CameraSpec;
 use run::Run;
 
 /// What one session is ingested from.
@@ -33,7 +33,7 @@ pub struct SessionSource {
     /// What the device writes.
     pub profile: Profile,
     /// The camera of this session.
-    pub camera: RecordedCamera,
+    pub camera_spec: CameraSpec,
     /// For image times that name no zone.
     pub time_zone: TimeZone,
     /// When a boot-relative clock was zero, where the profile says that the session tells.
@@ -132,10 +132,7 @@ fn ingest_as(
     progress: &dyn IngestProgress,
 ) -> Result<IngestSummary, IngestError> {
     source.profile.check(Path::new("device profile"))?;
-    let camera = match &source.camera {
-        RecordedCamera::Calibrated(spec) => Some(spec.camera()?),
-        RecordedCamera::PictureSize { .. } => None,
-    };
+    let camera = source.camera_spec.camera()?;
     let card = source.list_card()?;
     let place = Place::of_card(&source.card_dir);
     let bytes = key::input_files(&card, &source.profile)?.iter().map(|file| file.bytes).sum();
@@ -152,7 +149,7 @@ fn ingest_as(
     let images = source.profile.images.as_ref().map_or(&[][..], |images| &images.files);
     let declared = Declared { all: &key::all_patterns(&source.profile), images };
     run.problems.extend(card.unread(&declared, &place).map_err(IngestError::Pattern)?);
-    run.finish(&entries, camera.as_ref())
+    run.finish(&entries, &camera)
 }
 
 fn nothing_fits(source: &SessionSource, card: &Card) -> IngestError {

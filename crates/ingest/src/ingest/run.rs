@@ -128,7 +128,7 @@ impl<'a> Run<'a> {
         let mut tally = ImageTally::default();
         let progress = self.progress;
         let inputs = read_ahead(&fitting, progress, |file, bytes| {
-            let judged = bytes.and_then(|bytes| judge_image(file, bytes, time, &source.time_zone, &source.camera));
+            let judged = bytes.and_then(|bytes| judge_image(file, bytes, time, &source.time_zone, &source.camera_spec));
             match judged {
                 Ok(TakenImage { entry, encoding, bytes, remarks }) => {
                     tally.add(&entry.file, entry.bytes, remarks);
@@ -150,14 +150,13 @@ impl<'a> Run<'a> {
     }
 
     /// Writes what is known only at the end, and gives the file its name.
-    pub fn finish(mut self, entries: &[ImageEntry], camera: Option<&Camera>) -> Result<IngestSummary, IngestError> {
+    pub fn finish(mut self, entries: &[ImageEntry], camera: &Camera) -> Result<IngestSummary, IngestError> {
         if self.progress.is_stopped() {
             return Err(IngestError::Stopped); // what was read may end anywhere
         }
         // A session without any message still has its camera; its time then says 1970.
         let start = self.writer.first_time().unwrap_or(UtcNs(0));
-        let lists = self.writer.image_list(entries);
-        let lists = lists.and_then(|()| camera.map_or(Ok(()), |camera| self.writer.calibration(camera, start)));
+        let lists = self.writer.image_list(entries).and_then(|()| self.writer.calibration(camera, start));
         lists.map_err(|error| write_error(self.out, error))?;
         let facts = Facts {
             session: self.source.session.clone(),
@@ -168,7 +167,7 @@ impl<'a> Run<'a> {
             counts: self.counts,
             timeline: self.timeline,
             profile: self.source.profile.clone(),
-            camera: self.source.camera.clone(),
+            camera: self.source.camera_spec.clone(),
             inputs_sha256: self.inputs.sha256,
             dropped_images: self.dropped,
             problems: self.problems,

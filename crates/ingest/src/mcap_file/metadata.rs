@@ -4,11 +4,10 @@ use std::collections::BTreeMap;
 
 use sha2::{Digest, Sha256};
 
-use model::Problem;
+use model::{CameraSpec, Problem};
 use serde::de::DeserializeOwned;
 
 use crate::profile::Profile;
-use crate::recorded_camera::RecordedCamera;
 use crate::summary::{Counts, DroppedImage};
 use crate::timeline::Timeline;
 
@@ -36,7 +35,7 @@ pub(crate) struct Facts {
     pub counts: Counts,
     pub timeline: Timeline,
     pub profile: Profile,
-    pub camera: RecordedCamera,
+    pub camera: CameraSpec,
     pub inputs_sha256: BTreeMap<String, String>,
     pub dropped_images: Vec<DroppedImage>,
     pub problems: Vec<Problem>,

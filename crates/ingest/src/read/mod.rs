@@ -12,14 +12,13 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use model::{Problem, UtcNs};
+use model::{CameraSpec, Problem, UtcNs};
 
 use crate::key::SURVEY;
 use crate::mcap_file::messages::ImageFile;
 use crate::mcap_file::metadata::{Facts, SEAL};
 use crate::mcap_file::topic;
 use crate::profile::Profile;
-use crate::recorded_camera::RecordedCamera;
 use crate::sample::Sample;
 use crate::summary::{Counts, DroppedImage, ImageEntry};
 use crate::timeline::Timeline;
@@ -43,8 +42,8 @@ pub struct SessionMetadata {
     pub profile: Profile,
     /// Camera pitch minus sensor pitch as the profile declares it, degrees.
     pub mount_pitch_deg: f64,
-    /// Camera, or the size of its pictures.
-    pub camera: RecordedCamera,
+    /// Camera as it was when the card was ingested.
+    pub camera: CameraSpec,
     /// SHA-256 of every input file, by its path relative to the card; `unreadable` where it could not be read.
     pub inputs_sha256: BTreeMap<String, String>,
     /// Samples and images in the file.

@@ -40,7 +40,7 @@ fn images_that_cannot_be_used_are_listed_with_their_reason() {
         ]
     );
     let DroppedImage { detail, bytes, .. } = &summary.dropped_images[3];
-    assert_eq!(detail, "the camera takes 32 x 24 px, this one is 24 x 32 px");
+    assert_eq!(detail, "camera 'small' takes 32 x 24 px, this one is 24 x 32 px");
     assert!(*bytes > 0);
     let codes: Vec<_> = summary.problems.iter().map(|p| (p.code.as_str(), p.place.as_str())).collect();
     assert_eq!(

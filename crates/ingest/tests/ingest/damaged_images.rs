@@ -1,6 +1,6 @@
 //! Damaged pictures on a card: said with their facts; the others and their bytes stay as they are.
 
-use aim_batch_ingest::{IngestSummary, NoProgress, Profile, RecordedCamera, SessionReader, ingest_session};
+use aim_batch_ingest::{IngestSummary, NoProgress, Profile, SessionReader, ingest_session};
 use model::{FrameReason, Problem, Severity};
 
 use crate::support::{NOON_S, Study, acceleration_packet, jpeg_with_exif, noisy_jpeg, png, range_packet};
@@ -10,7 +10,8 @@ const SECOND: &str = "IMAGES/20250601T120001Z.JPG";
 /// A card with three pictures, the second of which is `second`.
 fn card(second: &[u8]) -> Study {
     let mut study = Study::new("aim2-packets");
-    study.source.camera = RecordedCamera::PictureSize { width_px: 128, height_px: 96 };
+    study.source.camera_spec.width_px = 128;
+    study.source.camera_spec.height_px = 96;
     study.write("SENSORS/ACC.BIN", &acceleration_packet(NOON_S as f64));
     study.write("SENSORS/RNG.BIN", &range_packet(NOON_S as f64, 400));
     study.write("IMAGES/20250601T120000Z.JPG", &noisy_jpeg(128, 96));

@@ -1,8 +1,8 @@
 //! Card -> MCAP -> reader: exact values, unchanged images, equal bytes.
 
 use aim_batch_ingest::{
-    Counts, INGEST_VERSION, ImageEntry, Ingested, NoProgress, Profile, RecordedCamera, Sample, SessionReader,
-    ingest_if_changed, ingest_is_current, inputs_key,
+    Counts, INGEST_VERSION, ImageEntry, Ingested, NoProgress, Profile, Sample, SessionReader, ingest_if_changed,
+    ingest_is_current, inputs_key,
 };
 use model::UtcNs;
 
@@ -92,7 +92,7 @@ fn metadata_says_what_went_in() {
     assert_eq!((metadata.session.as_str(), metadata.program.as_str()), ("P01", "test 1"));
     assert_eq!(metadata.ingest_version, INGEST_VERSION);
     assert_eq!(metadata.profile, study.source.profile);
-    assert_eq!(metadata.camera, study.source.camera);
+    assert_eq!(metadata.camera, study.source.camera_spec);
     assert!((metadata.mount_pitch_deg - 21.0).abs() < 1e-12);
     assert_eq!(metadata.counts, summary.counts);
     assert_eq!(metadata.key, summary.key);
@@ -140,15 +140,10 @@ fn a_second_run_ingests_only_what_has_changed() {
     assert!(!fresh(&study), "another version of the program, the same ingest");
     study.write("IMAGES/20250601T120000.000Z.jpg", &jpeg(32, 24, 201));
     assert!(fresh(&study), "a changed image");
-    let RecordedCamera::Calibrated(mut camera) = study.source.camera.clone() else { unreachable!() };
-    camera.principal_px = [15.0, 12.0];
-    study.source.camera = RecordedCamera::Calibrated(camera.clone());
-    assert!(fresh(&study), "a changed camera");
-    study.source.camera = RecordedCamera::Calibrated(camera.clone()).without_calibration();
-    assert!(fresh(&study), "no calibration");
-    camera.principal_px = [14.0, 12.0];
-    study.source.camera = RecordedCamera::Calibrated(camera).without_calibration();
-    assert!(!fresh(&study), "another calibration, where none is recorded");
+    study.source.camera_spec.principal_px = [15.0, 12.0];
+    assert!(!fresh(&study), "another calibration, on which no sample and no picture depends");
+    study.source.camera_spec.width_px = 33;
+    assert!(fresh(&study), "pictures of another size are expected");
     study.source.time_zone = jiff::tz::TimeZone::get("America/Chicago").unwrap();
     assert!(fresh(&study), "another time zone");
     std::fs::write(study.out(), b"not an MCAP file").unwrap();

@@ -6,7 +6,7 @@ use aim_batch_ingest::parse::RawBlock;
 use aim_batch_ingest::profile::{Epoch, Step};
 use aim_batch_ingest::timeline::{Block, Clock, Stepper};
 use aim_batch_ingest::{
-    IngestSummary, NoProgress, Profile, RecordedCamera, Sample, SessionReader, SessionSource, camera, ingest_session,
+    IngestSummary, NoProgress, Profile, Sample, SessionReader, SessionSource, camera, ingest_session,
 };
 use image::{ExtendedColorType, ImageEncoder};
 use jiff::tz::TimeZone;
@@ -34,7 +34,7 @@ impl Study {
             session: "P01".to_owned(),
             card_dir,
             profile: Profile::load(profile, &devices).unwrap(),
-            camera: RecordedCamera::Calibrated(camera::load("small", &devices).unwrap()),
+            camera_spec: camera::load("small", &devices).unwrap(),
             time_zone: TimeZone::UTC,
             clock_zero_utc: None,
             program: "test 1".to_owned(),

@@ -70,8 +70,8 @@ pub struct ProfileFacts {
 /// Camera.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct CameraFacts {
-    /// Its name; none where the file knows no more than the size of its pictures.
-    pub name: Option<String>,
+    /// Its name.
+    pub name: String,
     /// Width of its pictures.
     pub width_px: u32,
     /// Height of its pictures.
@@ -106,9 +106,9 @@ pub(super) fn of(reader: &mut SessionReader, mount_pitch_deg: Option<f64>) -> Re
         session: metadata.session,
         profile: ProfileFacts { name: metadata.profile.name, version: metadata.profile.version },
         camera: CameraFacts {
-            name: metadata.camera.name().map(str::to_owned),
-            width_px: metadata.camera.size_px().0,
-            height_px: metadata.camera.size_px().1,
+            name: metadata.camera.name,
+            width_px: metadata.camera.width_px,
+            height_px: metadata.camera.height_px,
         },
         mount_pitch_deg,
         time_zone: zone.iana_name().unwrap_or("UTC").to_owned(),

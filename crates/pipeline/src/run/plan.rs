@@ -1,9 +1,10 @@
 //! What a run has to do: every session looked at, no file of a card read.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
-use ingest::{Fingerprint, SessionSource, inputs_fingerprint};
-use model::{Problem, SessionStatus};
+use ingest::{Fingerprint, inputs_fingerprint};
+use model::{Problem, SessionStatus, Stage};
 
 use super::keys::{self, MeasureParts};
 use crate::session::Prepared;
@@ -47,11 +48,6 @@ pub(crate) struct Common<'a> {
 }
 
 impl<'a> Common<'a> {
-    /// The source of a run's own recording: sizes are measured anew when the camera changes, cards are not read again.
-    pub fn source(&self, prepared: &Prepared) -> SessionSource {
-        SessionSource { camera: prepared.source.camera.without_calibration(), ..prepared.source.clone() }
-    }
-
     pub fn measure_parts<'p>(
         &'p self,
         dir: &'p SessionDir,
@@ -62,15 +58,9 @@ impl<'a> Common<'a> {
     }
 
     /// Looks at a session. `kept` is what the state has of it.
-    pub fn plan(
-        &self,
-        dir: &'a SessionDir,
-        kept: Kept,
-        state: Option<&State>,
-        mcap: &std::path::Path,
-    ) -> SessionPlan<'a> {
+    pub fn plan(&self, dir: &'a SessionDir, kept: Kept, state: Option<&State>, mcap: &Path) -> SessionPlan<'a> {
         let prepared = Prepared::new(self.study, dir, self.program);
-        let card = prepared.as_ref().ok().and_then(|prepared| inputs_fingerprint(&self.source(prepared)).ok());
+        let card = prepared.as_ref().ok().and_then(|prepared| inputs_fingerprint(&prepared.source).ok());
         let current = match (&prepared, &card) {
             (Ok(prepared), Some(card)) => self.current(dir, prepared, card, &kept, state, mcap).unwrap_or_default(),
             _ => Current::default(),
@@ -86,7 +76,7 @@ impl<'a> Common<'a> {
         card: &Fingerprint,
         kept: &Kept,
         state: Option<&State>,
-        mcap: &std::path::Path,
+        mcap: &Path,
     ) -> Option<Current> {
         let mut current = Current::default();
         let ingest = kept.ingest.as_ref().filter(|stage| stage.fingerprint.as_ref() == Some(&card.hex()))?;
@@ -101,14 +91,14 @@ impl<'a> Common<'a> {
 }
 
 /// Whether the MCAP file is as ingest left it, or at least whole and of that key.
-fn recording_is_there(session: &str, ingest: &KeptStage, state: Option<&State>, mcap: &std::path::Path) -> bool {
+fn recording_is_there(session: &str, ingest: &KeptStage, state: Option<&State>, mcap: &Path) -> bool {
     let now = of_recording(mcap).hex();
-    let then = state.and_then(|state| state.output(session, model::Stage::Ingest).ok().flatten());
+    let then = state.and_then(|state| state.output(session, Stage::Ingest).ok().flatten());
     then == Some(now) || ingest::ingest_is_current(mcap, &ingest.key)
 }
 
 /// What the system says of an MCAP file.
-pub(super) fn of_recording(mcap: &std::path::Path) -> Fingerprint {
+pub(super) fn of_recording(mcap: &Path) -> Fingerprint {
     let mut fingerprint = Fingerprint::default();
     fingerprint.add_file("mcap", mcap);
     fingerprint

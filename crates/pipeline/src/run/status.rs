@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
+use ingest::SessionReader;
 use model::SessionStatus;
 
 use super::Halted;
 use super::options::program_and_commit;
-use super::plan::{Common, Current};
+use super::plan::{Common, Current, prepare};
 use crate::inputs::sha256_of_file;
 use crate::sessions::in_parallel;
-use crate::study::Study;
+use crate::study::{SessionDir, Study};
 use crate::work::{Holder, Kept, State, recording_of, state_file};
 
 /// The state of a study in a work folder.
@@ -32,6 +33,8 @@ pub struct SessionState {
     pub current: Current,
     /// Bytes of its card that a run would read.
     pub bytes_to_read: u64,
+    /// Whether the recording has the calibration of an earlier camera. Sizes do not depend on it; viewers show it.
+    pub has_old_calibration: bool,
     /// How it fared when it was last measured.
     pub status: Option<SessionStatus>,
     /// When that was, UTC.
@@ -51,14 +54,23 @@ pub fn status(study: &Study, work_dir: &Path, program: &str, commit: Option<&str
     let common = Common { study, program: &program, objects_csv };
     let dirs: Vec<_> = study.sessions.iter().map(|dir| (dir, kept.remove(&dir.name).unwrap_or_default())).collect();
     let sessions = in_parallel(&dirs, None, |(dir, kept): &(_, Kept)| {
-        let plan = common.plan(dir, kept.clone(), state.as_ref(), &recording_of(work_dir, &dir.name));
+        let mcap = recording_of(work_dir, &dir.name);
+        let plan = common.plan(dir, kept.clone(), state.as_ref(), &mcap);
         SessionState {
             session: dir.name.clone(),
             current: plan.current,
             bytes_to_read: plan.bytes_to_read,
+            has_old_calibration: plan.current.ingest && has_old_calibration(&common, dir, &mcap),
             status: plan.kept.status,
             measured_utc: plan.kept.measure.map(|stage| stage.made_utc),
         }
     })?;
     Ok(StudyState { sessions, removed: kept.into_keys().collect(), holder: Holder::of(work_dir) })
+}
+
+fn has_old_calibration(common: &Common<'_>, dir: &SessionDir, mcap: &Path) -> bool {
+    match (prepare(common, dir), SessionReader::open(mcap)) {
+        (Ok(prepared), Ok(reader)) => reader.metadata().camera != prepared.source.camera_spec,
+        _ => false,
+    }
 }

@@ -137,13 +137,13 @@ impl Worker<'_> {
         if let (true, Some(kept)) = (plan.current.ingest, &plan.kept.ingest) {
             return Ok((kept.key.clone(), None));
         }
-        let source = self.common.source(prepared);
+        let source = &prepared.source;
         let refuse = |error: IngestError| of_ingest(&plan.dir.name, error);
         let start = Instant::now();
-        let before = ingest::inputs_fingerprint(&source).map_err(refuse)?;
+        let before = ingest::inputs_fingerprint(source).map_err(refuse)?;
         let is_mixture = plan.kept.ingest.as_ref().is_some_and(|kept| kept.key.is_empty());
-        let ingested = self.ingest_card(&source, self.force || is_mixture)?;
-        let after = ingest::inputs_fingerprint(&source).map_err(refuse)?;
+        let ingested = self.ingest_card(source, self.force || is_mixture)?;
+        let after = ingest::inputs_fingerprint(source).map_err(refuse)?;
         let seconds = start.elapsed().as_secs_f64();
         // A card that was only hashed, and is what it was, was not ingested.
         log.ingest_s = matches!(ingested, Ingested::Fresh(_)).then_some(seconds);
@@ -200,7 +200,7 @@ impl Worker<'_> {
         let recording = match read() {
             Err(problem) if problem.code == BAD_MCAP => {
                 tracing::warn!(session, "{}; its card is ingested again", problem.fact);
-                let ingested = self.ingest_card(&self.common.source(prepared), true)?;
+                let ingested = self.ingest_card(&prepared.source, true)?;
                 self.keep_recording(plan, ingested.key(), None, start.elapsed().as_secs_f64())?;
                 read()?
             }

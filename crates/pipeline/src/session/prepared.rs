@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use ingest::{RecordedCamera, SessionSource};
+use ingest::SessionSource;
 use model::{Camera, CameraSpec, Problem, Severity, Stage};
 
 use super::problems::{MARKS_CAMERA_FACT, bad_camera, link_out_of_study, missing_card};
@@ -15,7 +15,7 @@ use crate::study::{SessionDir, SessionSpec, Study};
 pub(crate) struct Prepared {
     /// session.toml.
     pub spec: SessionSpec,
-    /// What its card is ingested from, with the whole camera.
+    /// What its card is ingested from.
     pub source: SessionSource,
     /// Camera of the pictures that were marked.
     pub marks_camera: (CameraSpec, Camera),
@@ -38,7 +38,7 @@ impl Prepared {
             session: dir.name.clone(),
             card_dir: card.to_owned(),
             profile: study.profile.clone(),
-            camera: RecordedCamera::Calibrated(camera.0),
+            camera_spec: camera.0,
             time_zone: study.time_zone.clone(),
             clock_zero_utc: spec.clock_zero_utc,
             program: program.to_owned(),

@@ -44,8 +44,7 @@ fn push_facts(text: &mut String, facts: &SessionFacts) {
 fn push_head(text: &mut String, facts: &SessionFacts) {
     let (profile, camera) = (&facts.profile, &facts.camera);
     line(text, 2, "profile", &format!("{} {}", profile.name, profile.version));
-    let name = camera.name.as_ref().map(|name| format!("{name}, ")).unwrap_or_default();
-    line(text, 2, "camera", &format!("{name}{} x {} px", camera.width_px, camera.height_px));
+    line(text, 2, "camera", &format!("{}, {} x {} px", camera.name, camera.width_px, camera.height_px));
     line(text, 2, "mount", &format!("the camera looks {} deg further down than the sensor", facts.mount_pitch_deg));
     line(text, 2, "time zone", &facts.time_zone);
     span_line(text, 2, "recorded", facts.recorded.as_ref());
