@@ -55,6 +55,7 @@ fn a_changed_filter_reads_samples_and_no_card() {
 #[test]
 fn a_changed_camera_measures_again_and_reads_no_card() {
     let bench = Bench::new();
+    settle();
     bench.run_well();
     let camera = std::fs::read_dir(bench.study().join("devices")).unwrap().next().unwrap().unwrap().file_name();
     let camera = format!("devices/{}", camera.to_str().unwrap());
