@@ -51,18 +51,35 @@ pub(crate) fn inputs_key_with(source: &SessionSource, progress: &dyn IngestProgr
     key_of(source, &inputs)
 }
 
-/// What the system says of the files that [`inputs_key`] reads, under the same settings: equal where the key is.
-///
-/// # Errors
-/// As [`inputs_key`].
-pub fn inputs_fingerprint(source: &SessionSource) -> Result<Fingerprint, IngestError> {
-    let card = source.list_card()?;
-    let mut fingerprint = Fingerprint::default();
-    fingerprint.add_text(&key_of(source, &Inputs::default())?);
-    for file in input_files(&card, &source.profile)? {
-        fingerprint.add_stamp(&file.name, &file.stamp);
+/// Looks at cards without reading them: made once for a device profile, used for every session.
+pub struct CardLook {
+    patterns: Patterns,
+    profile: String,
+}
+
+impl CardLook {
+    /// For cards of that profile.
+    ///
+    /// # Errors
+    /// [`IngestError`] when the profile contradicts itself.
+    pub fn new(profile: &Profile) -> Result<Self, IngestError> {
+        let patterns = Patterns::new(&all_patterns(profile)).map_err(IngestError::Pattern)?;
+        Ok(Self { patterns, profile: toml_text("profile", profile)? })
     }
-    Ok(fingerprint)
+
+    /// What the system says of the files that [`inputs_key`] reads, under the same settings: equal where the key is.
+    ///
+    /// # Errors
+    /// [`IngestError`] when there is no card.
+    pub fn fingerprint(&self, source: &SessionSource) -> Result<Fingerprint, IngestError> {
+        let card = source.list_card()?;
+        let mut fingerprint = Fingerprint::default();
+        fingerprint.add_text(&key_with(source, &self.profile, &Inputs::default())?);
+        for file in card.files.iter().filter(|file| self.patterns.fits(&file.name)) {
+            fingerprint.add_stamp(&file.name, &file.stamp);
+        }
+        Ok(fingerprint)
+    }
 }
 
 /// Whether `out` is an MCAP file with that key. False for anything that is not such a file.
@@ -84,18 +101,23 @@ pub(crate) fn key_as(keep: Keep, source: &SessionSource, inputs: &Inputs) -> Res
 struct KeyParts<'a> {
     ingest_version: u32,
     session: &'a str,
-    profile: String,
+    profile: &'a str,
     picture_size_px: (u32, u32),
     time_zone: String,
     clock_zero_utc: Option<Timestamp>,
     inputs: &'a std::collections::BTreeMap<String, String>,
 }
 
-pub(crate) fn key_of(source: &SessionSource, inputs: &Inputs) -> Result<String, IngestError> {
+fn key_of(source: &SessionSource, inputs: &Inputs) -> Result<String, IngestError> {
+    key_with(source, &toml_text("profile", &source.profile)?, inputs)
+}
+
+/// The key, where the profile is already text.
+fn key_with(source: &SessionSource, profile: &str, inputs: &Inputs) -> Result<String, IngestError> {
     let parts = KeyParts {
         ingest_version: INGEST_VERSION,
         session: &source.session,
-        profile: toml_text("profile", &source.profile)?,
+        profile,
         picture_size_px: (source.camera_spec.width_px, source.camera_spec.height_px),
         time_zone: zone_name(&source.time_zone),
         clock_zero_utc: source.clock_zero_utc,

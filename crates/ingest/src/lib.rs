@@ -60,7 +60,7 @@ pub use card::UNREADABLE;
 pub use config::ConfigError;
 pub use fingerprint::{FileStamp, Fingerprint};
 pub use ingest::{IngestError, Ingested, SessionSource, ingest_if_changed, ingest_session, survey_session};
-pub use key::{INGEST_VERSION, ingest_is_current, inputs_fingerprint, inputs_key};
+pub use key::{CardLook, INGEST_VERSION, ingest_is_current, inputs_key};
 pub use mcap_file::is_partial;
 pub use profile::Profile;
 pub use progress::{ByteBudget, IngestProgress, NoProgress};

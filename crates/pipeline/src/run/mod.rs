@@ -15,7 +15,6 @@ use std::time::Instant;
 use jiff::Timestamp;
 use model::{ResultSink, RunLog, SessionStatus, StageLog};
 
-use crate::inputs::sha256_of_file;
 use crate::reporter::{Reporter, Totals};
 use crate::study::Study;
 use crate::work::WorkFolder;
@@ -61,10 +60,8 @@ pub fn run<S: ResultSink>(
         work.prune(&names).map_err(Halted::from)?;
     }
     let study_inputs = write::study_inputs(study)?;
-    let objects = study.dir.join("objects.csv");
-    let objects_csv = sha256_of_file(&objects).map_err(|source| Halted::Input { path: objects, source })?;
     let program = options.program_and_commit();
-    let common = Common { study, program: &program, objects_csv };
+    let common = Common::new(study, &program)?;
     let all = All { common: &common, work: &work, options, reporter };
 
     let plans = all.plan(&study.sessions.iter().collect::<Vec<_>>())?;

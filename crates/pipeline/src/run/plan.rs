@@ -3,10 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use ingest::{Fingerprint, inputs_fingerprint};
+use ingest::{CardLook, Fingerprint};
 use model::{Problem, SessionStatus, Stage};
 
+use super::Halted;
 use super::keys::{self, MeasureParts};
+use crate::inputs::sha256_of_file;
 use crate::session::Prepared;
 use crate::study::{SessionDir, Study};
 use crate::work::{Kept, KeptStage, State};
@@ -44,10 +46,18 @@ pub(crate) struct Common<'a> {
     pub study: &'a Study,
     pub program: &'a str,
     /// SHA-256 of objects.csv.
-    pub objects_csv: String,
+    objects_csv: String,
+    pub look: CardLook,
 }
 
 impl<'a> Common<'a> {
+    pub fn new(study: &'a Study, program: &'a str) -> Result<Self, Halted> {
+        let objects = study.dir.join("objects.csv");
+        let objects_csv = sha256_of_file(&objects).map_err(|source| Halted::Input { path: objects, source })?;
+        let look = CardLook::new(&study.profile).map_err(|error| Halted::Ingest { error: Box::new(error) })?;
+        Ok(Self { study, program, objects_csv, look })
+    }
+
     pub fn measure_parts<'p>(
         &'p self,
         dir: &'p SessionDir,
@@ -60,7 +70,7 @@ impl<'a> Common<'a> {
     /// Looks at a session. `kept` is what the state has of it.
     pub fn plan(&self, dir: &'a SessionDir, kept: Kept, state: Option<&State>, mcap: &Path) -> SessionPlan<'a> {
         let prepared = Prepared::new(self.study, dir, self.program);
-        let card = prepared.as_ref().ok().and_then(|prepared| inputs_fingerprint(&prepared.source).ok());
+        let card = prepared.as_ref().ok().and_then(|prepared| self.look.fingerprint(&prepared.source).ok());
         let current = match (&prepared, &card) {
             (Ok(prepared), Some(card)) => self.current(dir, prepared, card, &kept, state, mcap).unwrap_or_default(),
             _ => Current::default(),

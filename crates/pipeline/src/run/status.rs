@@ -8,7 +8,6 @@ use model::SessionStatus;
 use super::Halted;
 use super::options::program_and_commit;
 use super::plan::{Common, Current, prepare};
-use crate::inputs::sha256_of_file;
 use crate::sessions::in_parallel;
 use crate::study::{SessionDir, Study};
 use crate::work::{Holder, Kept, State, recording_of, state_file};
@@ -48,10 +47,8 @@ pub struct SessionState {
 pub fn status(study: &Study, work_dir: &Path, program: &str, commit: Option<&str>) -> Result<StudyState, Halted> {
     let state = State::open_to_look(&state_file(work_dir))?;
     let mut kept = state.as_ref().map(State::all).transpose()?.unwrap_or_default();
-    let objects = study.dir.join("objects.csv");
-    let objects_csv = sha256_of_file(&objects).map_err(|source| Halted::Input { path: objects, source })?;
     let program = program_and_commit(program, commit);
-    let common = Common { study, program: &program, objects_csv };
+    let common = Common::new(study, &program)?;
     let dirs: Vec<_> = study.sessions.iter().map(|dir| (dir, kept.remove(&dir.name).unwrap_or_default())).collect();
     let sessions = in_parallel(&dirs, None, |(dir, kept): &(_, Kept)| {
         let mcap = recording_of(work_dir, &dir.name);

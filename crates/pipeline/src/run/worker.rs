@@ -140,10 +140,10 @@ impl Worker<'_> {
         let source = &prepared.source;
         let refuse = |error: IngestError| of_ingest(&plan.dir.name, error);
         let start = Instant::now();
-        let before = ingest::inputs_fingerprint(source).map_err(refuse)?;
+        let before = self.common.look.fingerprint(source).map_err(refuse)?;
         let is_mixture = plan.kept.ingest.as_ref().is_some_and(|kept| kept.key.is_empty());
         let ingested = self.ingest_card(source, self.force || is_mixture)?;
-        let after = ingest::inputs_fingerprint(source).map_err(refuse)?;
+        let after = self.common.look.fingerprint(source).map_err(refuse)?;
         let seconds = start.elapsed().as_secs_f64();
         // A card that was only hashed, and is what it was, was not ingested.
         log.ingest_s = matches!(ingested, Ingested::Fresh(_)).then_some(seconds);
