@@ -137,7 +137,7 @@ impl Bench {
     pub fn done(&self) -> [u64; 3] {
         let text = std::fs::read(self.out().with_file_name("run.json")).unwrap();
         let log: Value = serde_json::from_slice(&text).unwrap();
-        [0, 1, 2].map(|stage| log["stages"][stage]["done"].as_u64().unwrap())
+        [0, 1, 2].map(|stage| log["times"]["stages"][stage]["done"].as_u64().unwrap())
     }
 
     /// A file of the study, by its place there.

@@ -9,11 +9,12 @@ use model::{Problem, SessionLog, SessionStatus, Severity, Stage};
 
 use super::plan::{Common, SessionPlan, of_recording, prepare};
 use super::{Halted, keys};
+use crate::inputs::sha256_of_bytes;
 use crate::reporter::Reporter;
 use crate::session::{BAD_MCAP, Prepared, Recording, failed, ingest_problem, measure, read_recording, tidy};
 use crate::sessions::unless_panicking;
 use crate::stop::Stop;
-use crate::work::{StageOutput, WorkError, WorkFolder};
+use crate::work::{KeptStage, StageOutput, WorkError, WorkFolder};
 
 /// What the sessions at work share.
 pub(super) struct Worker<'a> {
@@ -86,7 +87,7 @@ impl Worker<'_> {
         let fingerprint = parts.fingerprint(plan.dir)?.settled();
         let measure_key = parts.key(plan.dir)?;
         let is_kept = |kept: &Option<_>, key: &str| {
-            kept.as_ref().is_some_and(|stage: &crate::work::KeptStage| stage.key == key) && !self.force
+            kept.as_ref().is_some_and(|stage: &KeptStage| stage.key == key) && !self.force
         };
         let signals_kept = is_kept(&plan.kept.signals, &signals_key);
         if changed.is_none()
@@ -218,6 +219,11 @@ impl Worker<'_> {
         let mut output = failed(self.common.study, plan.dir, problem);
         tidy(&mut output, self.common.study, &self.work.mcap_dir);
         let text = serde_json::to_string(&output).map_err(WorkError::from)?;
+        let failed_likewise =
+            |kept: &KeptStage| kept.key.is_empty() && kept.output_sha256 == sha256_of_bytes(text.as_bytes());
+        if plan.kept.measure.as_ref().is_some_and(failed_likewise) {
+            return Ok(output.status); // nothing new to be made durable
+        }
         let kept =
             StageOutput { key: "", fingerprint: None, seconds: 0.0, output: &text, status: Some(&output.status) };
         self.work.state.keep(&plan.dir.name, Stage::Measure, &kept)?;

@@ -62,9 +62,8 @@ pub struct ParquetSink {
 struct RunFile<'a> {
     schema_version: u32,
     #[serde(flatten)]
-    log: &'a RunLog,
-    #[serde(flatten)]
     metadata: &'a RunMetadata,
+    times: &'a RunLog,
 }
 
 /// Version of the layout of `run.json`.
@@ -103,7 +102,7 @@ impl ResultSink for ParquetSink {
         // Results last: whoever sees new results also finds their frames.
         frame_file.put_in_place()?;
         result_file.put_in_place()?;
-        let run = RunFile { schema_version: RUN_FILE_VERSION, log, metadata };
+        let run = RunFile { schema_version: RUN_FILE_VERSION, metadata, times: log };
         let text = serde_json::to_vec_pretty(&run).map_err(SinkError::Metadata)?;
         Ok(atomic::write(&run_file(&self.results), &text)?)
     }
