@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use crate::codes::coded_enum;
 use crate::frame_log::FrameReason;
-use crate::results::FrameRow;
+use crate::results::{FlowRow, FrameRow};
 
 coded_enum! {
     /// A step of the flow. Its images are a part of those of the step before.
@@ -77,6 +77,31 @@ impl ImageCounts {
     }
 }
 
+/// What the flow needs to know of an image.
+#[derive(Debug, Clone, Copy)]
+pub struct FlowImage<'a> {
+    /// Its session.
+    pub session: &'a str,
+    /// What became of it.
+    pub reason: FrameReason,
+    /// Raters with marks on it.
+    pub raters: u32,
+    /// Sizes measured on it.
+    pub sizes: u32,
+}
+
+impl<'a> From<&'a FrameRow> for FlowImage<'a> {
+    fn from(row: &'a FrameRow) -> Self {
+        Self { session: &row.session, reason: row.reason, raters: row.raters, sizes: row.sizes }
+    }
+}
+
+impl<'a> From<&'a FlowRow> for FlowImage<'a> {
+    fn from(row: &'a FlowRow) -> Self {
+        Self { session: &row.session, reason: row.reason, raters: row.raters, sizes: row.sizes }
+    }
+}
+
 /// How many images reach each step, and why the others do not. The order of the images does not matter.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Flow {
@@ -85,12 +110,13 @@ pub struct Flow {
 
 impl Flow {
     /// Counts one image.
-    pub fn add(&mut self, frame: &FrameRow) {
-        let marked = frame.raters > 0;
-        self.by_reason.entry(frame.reason).or_default().add(ImageCounts {
+    pub fn add<'a>(&mut self, image: impl Into<FlowImage<'a>>) {
+        let image = image.into();
+        let marked = image.raters > 0;
+        self.by_reason.entry(image.reason).or_default().add(ImageCounts {
             images: 1,
             marked: usize::from(marked),
-            measured: usize::from(marked && frame.sizes > 0),
+            measured: usize::from(marked && image.sizes > 0),
         });
     }
 
@@ -149,11 +175,12 @@ pub struct StudyFlow {
 
 impl StudyFlow {
     /// Counts one image of its session.
-    pub fn add(&mut self, frame: &FrameRow) {
-        if let Some(flow) = self.sessions.get_mut(&frame.session) {
-            return flow.add(frame);
+    pub fn add<'a>(&mut self, image: impl Into<FlowImage<'a>>) {
+        let image = image.into();
+        if let Some(flow) = self.sessions.get_mut(image.session) {
+            return flow.add(image);
         }
-        self.sessions.entry(frame.session.clone()).or_default().add(frame);
+        self.sessions.entry(image.session.to_owned()).or_default().add(image);
     }
 
     /// Counts the images of `other`, too.

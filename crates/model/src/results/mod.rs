@@ -11,4 +11,6 @@ mod row;
 pub use cell::{Cell, CellError, ColumnType, Value};
 pub use dictionary::{dictionary_markdown, ledger_markdown};
 pub use level::Level;
-pub use row::{Column, FRAME_COLUMNS, FrameRow, RESULT_COLUMNS, RESULTS_SCHEMA_VERSION, ResultRow, Row};
+pub use row::{
+    Column, FLOW_COLUMNS, FRAME_COLUMNS, FlowRow, FrameRow, RESULT_COLUMNS, RESULTS_SCHEMA_VERSION, ResultRow, Row,
+};

@@ -140,6 +140,16 @@ schema! {
     }
 }
 
+schema! {
+    /// The columns of `frames.parquet` that the flow of images needs: a year of images is read in a few bytes each.
+    FlowRow, FLOW_COLUMNS {
+        session: String = "name of the session",
+        reason: FrameReason = "what became of the image",
+        raters: u32 = "raters with marks on the image",
+        sizes: u32 = "sizes measured on the image",
+    }
+}
+
 impl FrameRow {
     /// A row of an image of which nothing but its name and its reason is known.
     #[must_use]

@@ -4,7 +4,7 @@ use std::io::{self, Cursor};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
-use model::results::{CellError, Column, ColumnType, FrameRow, RESULTS_SCHEMA_VERSION, ResultRow, Row};
+use model::results::{CellError, Column, ColumnType, FlowRow, FrameRow, RESULTS_SCHEMA_VERSION, ResultRow, Row};
 use model::{RunMetadata, StudyFlow};
 use polars::prelude::{
     DataFrame, DataType, ParallelStrategy, ParquetReader, PolarsError, PolarsResult, SerReader as _, TimeUnit,
@@ -140,12 +140,12 @@ impl Results {
     /// # Errors
     /// As [`Results::read`], and when another run wrote it.
     pub fn read_flow(&mut self, frames: &Path) -> Result<(), ReadError> {
-        let (rows, metadata): (Vec<FrameRow>, _) = read_rows(frames)?;
+        let (rows, metadata): (Vec<FlowRow>, _) = read_rows(frames)?;
         if metadata != self.metadata {
             return Err(ReadError::OtherRun { path: frames.to_owned() });
         }
         let mut flow = StudyFlow::default();
-        rows.iter().for_each(|frame| flow.add(frame));
+        rows.iter().for_each(|row| flow.add(row));
         self.flow = Some(flow);
         Ok(())
     }
@@ -166,7 +166,10 @@ fn read_rows<R: Row>(path: &Path) -> Result<(Vec<R>, RunMetadata), ReadError> {
     // One thread, so that a panic on damaged bytes arises here, where it is caught.
     let mut reader = ParquetReader::new(Cursor::new(bytes)).set_rechunk(true).read_parallel(ParallelStrategy::None);
     let metadata = run_metadata(&mut reader, path)?;
-    let frame = guarded(path, || reader.finish())?;
+    let schema = guarded(path, || reader.schema())?;
+    let there = R::COLUMNS.iter().filter(|column| schema.contains(column.name));
+    let names: Vec<String> = there.map(|column| column.name.to_owned()).collect();
+    let frame = guarded(path, || reader.with_columns(Some(names)).finish())?;
     for column in R::COLUMNS {
         check_column(&frame, column, path)?;
     }
