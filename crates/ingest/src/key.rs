@@ -4,10 +4,11 @@ use std::path::Path;
 
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
+use model::Problem;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use crate::card::{Card, CardFile, Inputs, Patterns, open_hashing, too_large};
+use crate::card::{Card, CardFile, Declared, Inputs, Patterns, Place, is_housekeeping, open_hashing, too_large};
 use crate::fingerprint::Fingerprint;
 use crate::ingest::{IngestError, SessionSource};
 use crate::mcap_file::Keep;
@@ -21,7 +22,7 @@ use crate::recorded_camera::RecordedCamera;
 pub const INGEST_VERSION: u32 = 4;
 
 /// SHA-256 over the session's name, the profile, what is recorded of the camera, the time zone, [`INGEST_VERSION`], and name and SHA-256 of
-/// every file that the profile's patterns fit. Reads all of them.
+/// every file that the profile's patterns fit, and what there is to tell of what else lies there. Reads all of them.
 ///
 /// # Errors
 /// [`IngestError`] when there is no card, or the profile contradicts itself.
@@ -48,19 +49,35 @@ pub(crate) fn inputs_key_with(source: &SessionSource, progress: &dyn IngestProgr
             Err(_) => inputs.add_unreadable(file),
         }
     }
-    key_of(source, &inputs)
+    key_of(source, &inputs, &listing_problems(source, &card)?)
 }
 
-/// What the system says of the files that [`inputs_key`] reads, under the same settings: equal where the key is.
+/// What the listing of a card gives to tell: links, odd names, and files that nobody reads. It is in the key, since it is in
+/// the recording.
+pub(crate) fn listing_problems(source: &SessionSource, card: &Card) -> Result<Vec<Problem>, IngestError> {
+    let images = source.profile.images.as_ref().map_or(&[][..], |images| &images.files);
+    let declared = Declared { all: &all_patterns(&source.profile), images };
+    let unread = card.unread(&declared, &Place::of_card(&source.card_dir)).map_err(IngestError::Pattern)?;
+    Ok(card.problems.iter().cloned().chain(unread).collect())
+}
+
+/// What the system says of the files of a card, under the same settings as [`inputs_key`]: where it is equal, the key is. The
+/// study's own files on the card do not count, nor do those of operating systems. Its bytes are those that are read.
 ///
 /// # Errors
 /// As [`inputs_key`].
 pub fn inputs_fingerprint(source: &SessionSource) -> Result<Fingerprint, IngestError> {
     let card = source.list_card()?;
     let mut fingerprint = Fingerprint::default();
-    fingerprint.add_text(&key_of(source, &Inputs::default())?);
-    for file in input_files(&card, &source.profile)? {
-        fingerprint.add_stamp(&file.name, &file.stamp);
+    fingerprint.add_text(&key_of(source, &Inputs::default(), &card.problems)?);
+    card.special.iter().for_each(|name| fingerprint.add_text(name));
+    let patterns = Patterns::new(&all_patterns(&source.profile)).map_err(IngestError::Pattern)?;
+    for file in &card.files {
+        if patterns.fits(&file.name) {
+            fingerprint.add_stamp(&file.name, &file.stamp);
+        } else if !is_housekeeping(&file.name) {
+            fingerprint.add_unread(&file.name, &file.stamp);
+        }
     }
     Ok(fingerprint)
 }
@@ -75,8 +92,13 @@ pub fn ingest_is_current(out: &Path, key: &str) -> bool {
 pub(crate) const SURVEY: &str = "survey:";
 
 /// The key of a file with images, or of a survey.
-pub(crate) fn key_as(keep: Keep, source: &SessionSource, inputs: &Inputs) -> Result<String, IngestError> {
-    let key = key_of(source, inputs)?;
+pub(crate) fn key_as(
+    keep: Keep,
+    source: &SessionSource,
+    inputs: &Inputs,
+    listing: &[Problem],
+) -> Result<String, IngestError> {
+    let key = key_of(source, inputs, listing)?;
     Ok(if keep == Keep::Images { key } else { format!("{SURVEY}{key}") })
 }
 
@@ -89,9 +111,11 @@ struct KeyParts<'a> {
     time_zone: String,
     clock_zero_utc: Option<Timestamp>,
     inputs: &'a std::collections::BTreeMap<String, String>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    listing: &'a [Problem],
 }
 
-pub(crate) fn key_of(source: &SessionSource, inputs: &Inputs) -> Result<String, IngestError> {
+pub(crate) fn key_of(source: &SessionSource, inputs: &Inputs, listing: &[Problem]) -> Result<String, IngestError> {
     let parts = KeyParts {
         ingest_version: INGEST_VERSION,
         session: &source.session,
@@ -100,6 +124,7 @@ pub(crate) fn key_of(source: &SessionSource, inputs: &Inputs) -> Result<String, 
         time_zone: zone_name(&source.time_zone),
         clock_zero_utc: source.clock_zero_utc,
         inputs: &inputs.sha256,
+        listing,
     };
     let text = serde_json::to_vec(&parts).map_err(IngestError::Key)?;
     Ok(format!("{:x}", Sha256::digest(text)))
