@@ -103,6 +103,68 @@ fn a_changed_picture_is_seen_even_with_its_old_size_and_time() {
 }
 
 #[test]
+fn a_file_that_nobody_reads_is_told_of_when_it_comes_and_not_when_it_went() {
+    let bench = Bench::new();
+    settle();
+    let before = bench.run_well();
+    let extra = bench.study().join("cards/S00002/notes.bin");
+    std::fs::write(&extra, b"something").unwrap();
+    let with = bench.run_well();
+    assert_ne!(with, before, "a note more");
+    assert_eq!(with, bench.undisturbed());
+    std::fs::remove_file(extra).unwrap();
+    assert_eq!(bench.run_well(), before);
+}
+
+#[cfg(unix)]
+#[test]
+fn pipes_among_cards_and_marks_are_told_and_not_waited_for() {
+    let bench = Bench::new();
+    settle();
+    let before = bench.run_well();
+    let pipes = ["cards/S00002/IMAGES/pipe.jpg", "marks/R1/S00003/pipe.json"].map(|place| bench.study().join(place));
+    for pipe in &pipes {
+        assert!(std::process::Command::new("mkfifo").arg(pipe).status().unwrap().success());
+    }
+    assert_exit(&bench.run(), 3);
+    let losses = bench.losses();
+    let expected = [("S00002", "not_a_file"), ("S00003", "marks_unreadable")];
+    assert_eq!(losses, expected.map(|(session, code)| (session.to_owned(), vec![code.to_owned()])));
+    assert_eq!(bench.files(), bench.undisturbed());
+    pipes.iter().for_each(|pipe| std::fs::remove_file(pipe).unwrap());
+    assert_eq!(bench.run_well(), before);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_a_disk_that_is_not_there_is_a_session_that_failed() {
+    let bench = Bench::new();
+    let card = bench.study().join("cards/S00003");
+    std::fs::remove_dir_all(&card).unwrap();
+    std::fs::remove_dir_all(bench.study().join("marks/R1/S00003")).unwrap();
+    std::os::unix::fs::symlink("/no/such/disk", card).unwrap();
+    assert_exit(&bench.run(), 3);
+    assert_eq!(bench.losses(), [("S00003".to_owned(), vec!["missing_card".to_owned()])]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn odd_names_of_sessions_stay_apart_and_one_too_long_concerns_itself_only() {
+    use std::os::unix::ffi::OsStrExt as _;
+    let bench = Bench::new();
+    let cards = bench.study().join("cards");
+    for (card, name) in [("S00004", &b"X\xff"[..]), ("S00005", b"X\xfe"), ("S00006", &[b'N'; 253])] {
+        std::fs::rename(cards.join(card), cards.join(std::ffi::OsStr::from_bytes(name))).unwrap();
+        std::fs::remove_dir_all(bench.study().join("marks/R1").join(card)).unwrap();
+    }
+    assert_exit(&bench.run(), 3);
+    let long = "N".repeat(253);
+    let names: Vec<String> = bench.statuses().into_iter().map(|status| status.session).collect();
+    assert_eq!(names, [long.as_str(), "S00001", "S00002", "S00003", "X\\xfe", "X\\xff"]);
+    assert_eq!(bench.losses(), [(long, vec!["mcap_not_written".to_owned()])]);
+}
+
+#[test]
 fn files_that_were_only_touched_change_nothing() {
     let bench = Bench::new();
     settle();

@@ -7,6 +7,7 @@ mod determinism;
 mod kills;
 mod moving_cards;
 mod panics;
+mod places;
 mod progress;
 mod system;
 mod two_runs;

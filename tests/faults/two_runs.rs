@@ -12,6 +12,8 @@ fn the_second_in_a_work_folder_is_refused_and_told_who_is_first() {
     let bench = Bench::new();
     let mut first = bench.start(&["--jobs", "2"], &PAUSE);
     wait_for_lock(&bench, &first);
+    let again = stderr(&bench.run());
+    assert!(again.contains(&format!("process {} on ", first.id())), "the very same command: {again}");
     let other_out = bench.path("other/results.parquet");
     let mut command = aim_batch();
     command.arg("run").arg(bench.study()).arg("--out").arg(&other_out).arg("--work").arg(bench.work());

@@ -47,6 +47,60 @@ fn a_recording_with_a_flipped_byte_is_made_again_when_it_is_read() {
     assert_eq!(bench.run_well(), bench.undisturbed());
 }
 
+/// SQL by other hands, on the state.
+fn sql(bench: &Bench, text: &str) {
+    rusqlite::Connection::open(bench.work().join("state.sqlite")).unwrap().execute_batch(text).unwrap();
+}
+
+#[test]
+fn a_state_with_other_tables() {
+    for text in ["DROP TABLE written", "DROP TABLE stage", "ALTER TABLE output RENAME COLUMN json TO text"] {
+        let bench = mended(|bench| sql(bench, text));
+        assert!(bench.work().join("state.sqlite.old").exists(), "{text}");
+    }
+}
+
+#[test]
+fn a_state_with_a_column_more() {
+    let bench = mended(|bench| sql(bench, "ALTER TABLE stage ADD COLUMN remark TEXT"));
+    bench.edit("cards/S00003/session.toml", |text| text.replacen("participant = \"", "participant = \"x", 1));
+    assert_eq!(bench.run_well(), bench.undisturbed());
+    assert!(!bench.work().join("state.sqlite.old").exists());
+}
+
+#[test]
+fn values_of_other_types_in_the_state() {
+    for text in
+        ["UPDATE stage SET seconds = 'long'", "UPDATE written SET key = x'ff00'", "UPDATE output SET json = x'ff00'"]
+    {
+        mended(|bench| {
+            sql(bench, text);
+            std::fs::remove_file(bench.out()).unwrap(); // so that rows are needed
+            let marks = std::fs::read_dir(bench.study().join("marks/R1/S00002")).unwrap().next().unwrap().unwrap();
+            let now = std::fs::FileTimes::new().set_modified(std::time::SystemTime::now());
+            std::fs::File::options().write(true).open(marks.path()).unwrap().set_times(now).unwrap();
+        });
+    }
+}
+
+#[test]
+fn a_journal_of_a_killed_run_does_not_keep_status_from_looking() {
+    let bench = Bench::new();
+    bench.run_well();
+    let state = bench.work().join("state.sqlite");
+    let db = rusqlite::Connection::open(&state).unwrap();
+    db.execute_batch("PRAGMA cache_size = 1; BEGIN EXCLUSIVE; UPDATE output SET json = json || 'xxxxxxxxxxxx'")
+        .unwrap();
+    // What lies there at this moment is what a kill would leave.
+    let [torn, journal] =
+        [state.clone(), bench.work().join("state.sqlite-journal")].map(|path| std::fs::read(path).unwrap());
+    drop(db);
+    std::fs::write(&state, torn).unwrap();
+    std::fs::write(bench.work().join("state.sqlite-journal"), journal).unwrap();
+    assert!(bench.status(&[]).contains("6 sessions"));
+    assert_eq!(bench.run_well(), bench.undisturbed());
+}
+
 #[test]
 fn a_state_of_garbage() {
     let bench = mended(|bench| std::fs::write(bench.work().join("state.sqlite"), vec![0xa5; 10_000]).unwrap());

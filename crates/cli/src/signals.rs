@@ -17,6 +17,9 @@ pub fn watch(stop: &Stop) -> io::Result<()> {
         flag::register(signal, Arc::clone(&again))?;
         flag::register_usize(signal, stop.signal_slot(), usize::from(number))?;
     }
+    // A limit of the size of files is then told as any other failure to write, and does not end the program.
+    #[cfg(unix)]
+    flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)))?;
     Ok(())
 }
 

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
+use model::Problem;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use crate::card::{Card, CardFile, Inputs, Patterns, open_hashing, too_large};
+use crate::card::{Card, CardFile, Declared, Inputs, Patterns, Place, is_housekeeping, open_hashing, too_large};
 use crate::fingerprint::Fingerprint;
 use crate::ingest::{IngestError, SessionSource};
 use crate::mcap_file::Keep;
@@ -19,9 +20,10 @@ use crate::read::SessionReader;
 /// Version of what ingest writes. A change of layout or meaning gives another number, and all sessions are ingested anew.
 pub const INGEST_VERSION: u32 = 4;
 
-/// SHA-256 over the session's name, the profile, the size of the camera's pictures, the time zone, [`INGEST_VERSION`], and name and SHA-256 of
-/// every file that the profile's patterns fit. Reads all of them. The camera's calibration is not in it: the file has it for
-/// those who look at pictures, and nothing else in the file depends on it.
+/// SHA-256 over the session's name, the profile, the size of the camera's pictures, the time zone, [`INGEST_VERSION`], name and
+/// SHA-256 of every file that the profile's patterns fit, and what there is to tell of what else lies there. Reads all of
+/// them. The camera's calibration is not in it: the file has it for those who look at pictures, and nothing else in the file
+/// depends on it.
 ///
 /// # Errors
 /// [`IngestError`] when there is no card, or the profile contradicts itself.
@@ -48,7 +50,16 @@ pub(crate) fn inputs_key_with(source: &SessionSource, progress: &dyn IngestProgr
             Err(_) => inputs.add_unreadable(file),
         }
     }
-    key_of(source, &inputs)
+    key_of(source, &inputs, &listing_problems(source, &card)?)
+}
+
+/// What the listing of a card gives to tell: links, odd names, and files that nobody reads. It is in the key, since it is in
+/// the recording.
+pub(crate) fn listing_problems(source: &SessionSource, card: &Card) -> Result<Vec<Problem>, IngestError> {
+    let images = source.profile.images.as_ref().map_or(&[][..], |images| &images.files);
+    let declared = Declared { all: &all_patterns(&source.profile), images };
+    let unread = card.unread(&declared, &Place::of_card(&source.card_dir)).map_err(IngestError::Pattern)?;
+    Ok(card.problems.iter().cloned().chain(unread).collect())
 }
 
 /// Looks at cards without reading them: made once for a device profile, used for every session.
@@ -67,16 +78,22 @@ impl CardLook {
         Ok(Self { patterns, profile: toml_text("profile", profile)? })
     }
 
-    /// What the system says of the files that [`inputs_key`] reads, under the same settings: equal where the key is.
+    /// What the system says of the files of a card, under the same settings as [`inputs_key`]: where it is equal, the key is.
+    /// The study's own files on the card do not count, nor do those of operating systems. Its bytes are those that are read.
     ///
     /// # Errors
     /// [`IngestError`] when there is no card.
     pub fn fingerprint(&self, source: &SessionSource) -> Result<Fingerprint, IngestError> {
         let card = source.list_card()?;
         let mut fingerprint = Fingerprint::default();
-        fingerprint.add_text(&key_with(source, &self.profile, &Inputs::default())?);
-        for file in card.files.iter().filter(|file| self.patterns.fits(&file.name)) {
-            fingerprint.add_stamp(&file.name, &file.stamp);
+        fingerprint.add_text(&key_with(source, &self.profile, &Inputs::default(), &card.problems)?);
+        card.special.iter().for_each(|name| fingerprint.add_text(name));
+        for file in &card.files {
+            if self.patterns.fits(&file.name) {
+                fingerprint.add_stamp(&file.name, &file.stamp);
+            } else if !is_housekeeping(&file.name) {
+                fingerprint.add_unread(&file.name, &file.stamp);
+            }
         }
         Ok(fingerprint)
     }
@@ -92,8 +109,13 @@ pub fn ingest_is_current(out: &Path, key: &str) -> bool {
 pub(crate) const SURVEY: &str = "survey:";
 
 /// The key of a file with images, or of a survey.
-pub(crate) fn key_as(keep: Keep, source: &SessionSource, inputs: &Inputs) -> Result<String, IngestError> {
-    let key = key_of(source, inputs)?;
+pub(crate) fn key_as(
+    keep: Keep,
+    source: &SessionSource,
+    inputs: &Inputs,
+    listing: &[Problem],
+) -> Result<String, IngestError> {
+    let key = key_of(source, inputs, listing)?;
     Ok(if keep == Keep::Images { key } else { format!("{SURVEY}{key}") })
 }
 
@@ -106,14 +128,21 @@ struct KeyParts<'a> {
     time_zone: String,
     clock_zero_utc: Option<Timestamp>,
     inputs: &'a std::collections::BTreeMap<String, String>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    listing: &'a [Problem],
 }
 
-fn key_of(source: &SessionSource, inputs: &Inputs) -> Result<String, IngestError> {
-    key_with(source, &toml_text("profile", &source.profile)?, inputs)
+pub(crate) fn key_of(source: &SessionSource, inputs: &Inputs, listing: &[Problem]) -> Result<String, IngestError> {
+    key_with(source, &toml_text("profile", &source.profile)?, inputs, listing)
 }
 
 /// The key, where the profile is already text.
-fn key_with(source: &SessionSource, profile: &str, inputs: &Inputs) -> Result<String, IngestError> {
+fn key_with(
+    source: &SessionSource,
+    profile: &str,
+    inputs: &Inputs,
+    listing: &[Problem],
+) -> Result<String, IngestError> {
     let parts = KeyParts {
         ingest_version: INGEST_VERSION,
         session: &source.session,
@@ -122,6 +151,7 @@ fn key_with(source: &SessionSource, profile: &str, inputs: &Inputs) -> Result<St
         time_zone: zone_name(&source.time_zone),
         clock_zero_utc: source.clock_zero_utc,
         inputs: &inputs.sha256,
+        listing,
     };
     let text = serde_json::to_vec(&parts).map_err(IngestError::Key)?;
     Ok(format!("{:x}", Sha256::digest(text)))

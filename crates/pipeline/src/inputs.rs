@@ -5,8 +5,11 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-/// SHA-256 of a file, in hexadecimal, in bounded memory.
+/// SHA-256 of a file, in hexadecimal, in bounded memory. What is no file, such as a pipe, is not opened: that could last.
 pub(crate) fn sha256_of_file(path: &Path) -> io::Result<String> {
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("not a regular file"));
+    }
     let mut hasher = Sha256::new();
     io::copy(&mut std::fs::File::open(path)?, &mut hasher)?;
     Ok(hex(&hasher.finalize()))

@@ -77,7 +77,7 @@ impl MarksError {
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {
-            Self::Unreadable { .. } => "marks_unreadable",
+            Self::Unreadable { .. } => MARKS_UNREADABLE,
             Self::TooLarge { .. } => "marks_too_large",
             Self::Malformed { .. } => "marks_malformed",
             Self::OtherPicture { .. } => "marks_of_other_picture",
@@ -85,6 +85,9 @@ impl MarksError {
         }
     }
 }
+
+/// The system does not let marks be read.
+pub(crate) const MARKS_UNREADABLE: &str = "marks_unreadable";
 
 /// What one file holds.
 #[derive(Debug, Default)]

@@ -53,6 +53,11 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
+/// Refuses what can never take a file's bytes.
+pub(crate) fn check(target: &Path) -> Result<(), FileError> {
+    if target.is_dir() { Err(FileError::Folder { path: target.to_owned() }) } else { Ok(()) }
+}
+
 /// A file under construction beside its target, `.NAME.aim-batch-part`. Removed when it is dropped; one that a killed process
 /// left is used again, so that none pile up. Locked meanwhile, and the system drops the lock with the process.
 pub(crate) struct Aside {
@@ -64,9 +69,7 @@ pub(crate) struct Aside {
 
 impl Aside {
     pub(crate) fn of(target: &Path) -> Result<Self, FileError> {
-        if target.is_dir() {
-            return Err(FileError::Folder { path: target.to_owned() });
-        }
+        check(target)?;
         let name = target.file_name().unwrap_or_default().to_string_lossy();
         let path = folder(target).join(format!(".{name}.aim-batch-part"));
         let refuse = |source| FileError::Create { path: target.to_owned(), source };

@@ -36,10 +36,10 @@ pub fn run(args: &IngestArgs, bars: &Bars) -> Result<Outcome, Failure> {
         source.camera_spec.name,
     ))?;
     for image in &summary.dropped_images {
-        tell(&format!("dropped {}: {} ({})\n", image.file, image.reason.meaning(), image.reason))?;
+        tell(&format!("dropped {}: {} ({})\n", image.file, image.reason.meaning(), image.reason));
     }
     for problem in &summary.problems {
-        tell(&format!("{} in {}: {}; {}\n", problem.code, problem.place, problem.fact, problem.remedy))?;
+        tell(&format!("{} in {}: {}; {}\n", problem.code, problem.place, problem.fact, problem.remedy));
     }
     Ok(outcome(
         !summary.dropped_images.is_empty() || summary.problems.iter().any(|problem| problem.severity == Severity::Loss),

@@ -67,7 +67,7 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome, Failure> {
         .collect();
     print(&if args.json { format!("{}\n", serde_json::to_string_pretty(&sizes)?) } else { text(&sizes, &inputs) })?;
     for object in marks.objects.iter().filter(|object| !object.inside_picture(view.camera().size_px())) {
-        tell(&format!("warning: marks of '{}' lie outside the picture\n", object.object))?;
+        tell(&format!("warning: marks of '{}' lie outside the picture\n", object.object));
     }
     let mut lost = !marks.refused.is_empty();
     for refused in &marks.refused {

@@ -4,6 +4,7 @@ pub mod check;
 pub mod ingest;
 pub mod inspect;
 pub mod measure;
+mod place;
 mod problems;
 pub mod project;
 pub mod report;
@@ -35,9 +36,10 @@ fn print(text: &str) -> io::Result<()> {
     }
 }
 
-/// Writes what the user should know to stderr.
-fn tell(text: &str) -> io::Result<()> {
-    io::stderr().write_all(text.as_bytes())
+/// Writes what the user should know to stderr. A stderr that is closed or full changes neither what is done nor the exit code:
+/// there is nowhere to complain.
+fn tell(text: &str) {
+    let _ = io::stderr().write_all(text.as_bytes());
 }
 
 /// The tables of a run, as wide as the terminal, if stdout is one: those that the study asks for, or the sizes if it asks for none,

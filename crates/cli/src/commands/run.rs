@@ -1,14 +1,14 @@
 //! `run`: the main job.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
-use pipeline::{Halted, RunError, RunOptions, Study};
-use report::SinkError;
+use pipeline::{Halted, Holder, RunError, RunOptions, Study};
+use report::{FileError, SinkError};
 
 use super::summary::{Finished, tell_summary};
-use super::{COMMIT, PROGRAM, outcome, print, settings, stop_on_signals, tables_text, tell};
+use super::{COMMIT, PROGRAM, outcome, place, print, settings, stop_on_signals, tables_text, tell};
 use crate::args::RunArgs;
 use crate::exit::{Failure, Outcome};
 use crate::logging::LogFormat;
@@ -18,13 +18,15 @@ use crate::progress::Bars;
 pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Failure> {
     check(args)?;
     let study = Study::load(&args.study, |spec| settings::apply(&args.settings, spec)).map_err(Failure::usage)?;
+    place::check_apart(&args.place, &study)?;
     let out = &args.place.out;
     let frames = ::report::frames_file(out);
     if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     }
     let options = options(args)?;
-    let mut sink = ::report::ParquetSink::create(out, &frames)?;
+    let sink = ::report::ParquetSink::create(out, &frames);
+    let mut sink = sink.map_err(|error| named(error, &options.work_dir))?;
     let progress = bars.for_run();
     let ran = pipeline::run(&study, &options, &progress, &mut sink).map_err(failure)?;
     drop((sink, progress));
@@ -37,10 +39,10 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     }
     let files = [out.clone(), frames, ::report::run_file(out)];
     let files: Vec<PathBuf> = files.into_iter().chain(args.report.clone()).collect();
-    tell_summary(&Finished { ran: &ran, files: &files, work_dir: &options.work_dir }, format)?;
+    tell_summary(&Finished { ran: &ran, files: &files, work_dir: &options.work_dir }, format);
     if let Some(dir) = &args.expect {
         let comparison = ::report::compare(dir, &results, args.tolerance).map_err(Failure::usage)?;
-        tell(&format!("{comparison}\n"))?;
+        tell(&format!("{comparison}\n"));
         if !comparison.is_ok() {
             return Err(Failure::Failed(anyhow!("the tables differ from those in {}", dir.display())));
         }
@@ -65,6 +67,16 @@ fn options(args: &RunArgs) -> Result<RunOptions, Failure> {
     })
 }
 
+/// Who writes the same files, if it is a run in the same work folder.
+fn named(error: SinkError, work_dir: &Path) -> Failure {
+    match (&error, Holder::of(work_dir)) {
+        (SinkError::File(FileError::Busy { .. }), Some(Holder(holder))) => {
+            Failure::Failed(anyhow!(error).context(format!("another run is at work on this output: {holder}")))
+        }
+        _ => error.into(),
+    }
+}
+
 fn failure(error: RunError<SinkError>) -> Failure {
     match error {
         RunError::Halted(Halted::Stopped { signal, .. }) => Failure::Stopped(signal, error.into()),
@@ -75,10 +87,7 @@ fn failure(error: RunError<SinkError>) -> Failure {
 /// What would otherwise fail at the end of a night.
 fn check(args: &RunArgs) -> Result<(), Failure> {
     let refuse = |fact: String| Err(Failure::Usage(anyhow!(fact)));
-    let out = &args.place.out;
-    if out.extension().is_none_or(|extension| extension != "parquet") {
-        return refuse(format!("--out {}: expected a name that ends in .parquet", out.display()));
-    }
+    place::check_name(&args.place.out)?;
     if !(args.tolerance.is_finite() && args.tolerance >= 0.0) {
         return refuse(format!("--tolerance {}: expected zero or a positive number", args.tolerance));
     }

@@ -1,7 +1,6 @@
 //! What a run did and what it lost, at its end.
 
 use std::fmt::Write as _;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use model::{SessionStatus, StageLog};
@@ -22,7 +21,7 @@ pub struct Finished<'a> {
 }
 
 /// Tells on stderr, or as an event of the log where that is JSON (each problem has been one already).
-pub fn tell_summary(finished: &Finished<'_>, format: LogFormat) -> io::Result<()> {
+pub fn tell_summary(finished: &Finished<'_>, format: LogFormat) {
     let Ran { sessions, done, wrote, stages, seconds } = finished.ran;
     let count = |count: fn(&SessionStatus) -> usize| sessions.iter().map(count).sum::<usize>();
     let (failed, images) = (count(|s| usize::from(s.failed)), count(|s| s.images));
@@ -44,7 +43,7 @@ pub fn tell_summary(finished: &Finished<'_>, format: LogFormat) -> io::Result<()
             ?files,
             "finished"
         );
-        return Ok(());
+        return;
     }
     let mut text = format!(
         "{} sessions ({failed} failed), {images} images, {with_pose} with a pose, {selected} selected, {sizes} sizes\n",
@@ -57,7 +56,7 @@ pub fn tell_summary(finished: &Finished<'_>, format: LogFormat) -> io::Result<()
         let _ = writeln!(text, "{verb} {}", file.display());
     }
     let _ = writeln!(text, "work folder {}", finished.work_dir.display());
-    tell(&text)
+    tell(&text);
 }
 
 /// Seconds by stage.

@@ -11,6 +11,7 @@ mod stream;
 mod unread;
 mod walk;
 
+pub use names::name_text;
 pub use patterns::{PatternError, Patterns};
 pub use walk::{Card, CardFile};
 
@@ -21,4 +22,4 @@ pub(crate) use image_file::{LARGEST_IMAGE_BYTES, Remarks, TakenImage, judge_imag
 pub(crate) use place::{Place, amount, size};
 pub(crate) use sensor_files::Anchoring;
 pub(crate) use stream::Stream;
-pub(crate) use unread::Declared;
+pub(crate) use unread::{Declared, is_housekeeping};

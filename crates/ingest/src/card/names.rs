@@ -1,6 +1,7 @@
 //! Names of files as text, whatever bytes they consist of.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::path::Path;
 
 use model::Problem;
@@ -10,11 +11,15 @@ use super::{CardFile, Place};
 /// A path relative to the card, with `/`. Bytes that are not UTF-8, and control characters, are written `\xff`, a backslash
 /// in a name as `\\`: no two files get the same name.
 pub(super) fn card_name(relative: &Path) -> String {
-    let parts: Vec<String> = relative.iter().map(|part| escaped(part.as_encoded_bytes())).collect();
+    let parts: Vec<String> = relative.iter().map(name_text).collect();
     parts.join("/")
 }
 
-fn escaped(bytes: &[u8]) -> String {
+/// The name of a file or folder as text. Bytes that are not UTF-8, and control characters, are written `\xff`, a backslash as
+/// `\\`: no two get the same.
+#[must_use]
+pub fn name_text(name: &OsStr) -> String {
+    let bytes = name.as_encoded_bytes();
     let mut text = String::with_capacity(bytes.len());
     let escape = |text: &mut String, bytes: &[u8]| {
         bytes.iter().for_each(|byte| text.push_str(&format!("\\x{byte:02x}")));

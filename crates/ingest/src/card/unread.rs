@@ -48,7 +48,8 @@ impl Card {
     }
 }
 
-fn is_housekeeping(name: &str) -> bool {
+/// Whether a file that no pattern fits is nothing to tell of.
+pub(crate) fn is_housekeeping(name: &str) -> bool {
     is_hidden(name) || HOUSEKEEPING.contains(&name.rsplit('/').next().unwrap_or(name).to_lowercase().as_str())
 }
 

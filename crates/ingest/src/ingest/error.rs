@@ -76,7 +76,11 @@ impl IngestError {
     /// would fail of it as well.
     #[must_use]
     pub fn is_of_all_sessions(&self) -> bool {
-        matches!(self, Self::Write { .. } | Self::Thread(_) | Self::Stopped)
+        match self {
+            Self::Write { source: WriteError::Io(error), .. } => !is_of_name(error),
+            Self::Write { .. } | Self::Thread(_) | Self::Stopped => true,
+            _ => false,
+        }
     }
 
     /// Stable code, for the status of a session.
@@ -105,9 +109,17 @@ impl IngestError {
             Self::Camera(_) => "correct the camera file (docs/devices.md)",
             Self::Stopped => "run again to go on",
             Self::Thread(_) => "give --jobs a smaller number, or raise the limit of processes",
+            Self::Write { source: WriteError::Io(error), .. } if is_of_name(error) => {
+                "give the session's folder a shorter name, without characters that are odd in names of files"
+            }
             Self::Write { .. } | Self::Metadata(_) | Self::Key(_) => {
                 "check free space and permissions of the work folder"
             }
         }
     }
+}
+
+/// Whether a name is too long, or otherwise none for this file system.
+fn is_of_name(error: &std::io::Error) -> bool {
+    matches!(error.kind(), std::io::ErrorKind::InvalidFilename | std::io::ErrorKind::InvalidInput)
 }

@@ -12,7 +12,7 @@ pub use error::IngestError;
 
 use std::path::{Path, PathBuf};
 
-use crate::card::{Card, Declared, Place};
+use crate::card::{Card, Place};
 use crate::key;
 use crate::mcap_file::Keep;
 use crate::profile::Profile;
@@ -140,16 +140,16 @@ fn ingest_as(
     tracing::debug!(session = source.session, bytes, "ingest");
 
     let mut run = Run::new(source, out, keep, &place, progress)?;
-    run.problems.extend(card.problems.iter().cloned());
+    let listing = key::listing_problems(source, &card)?;
+    let (of_card, unread) = listing.split_at(card.problems.len());
+    run.problems.extend_from_slice(of_card);
     run.sensors(&card)?;
     let entries = run.images(&card)?;
     if run.inputs.sha256.is_empty() {
         return Err(nothing_fits(source, &card));
     }
-    let images = source.profile.images.as_ref().map_or(&[][..], |images| &images.files);
-    let declared = Declared { all: &key::all_patterns(&source.profile), images };
-    run.problems.extend(card.unread(&declared, &place).map_err(IngestError::Pattern)?);
-    run.finish(&entries, &camera)
+    run.problems.extend_from_slice(unread);
+    run.finish(&entries, &camera, &listing)
 }
 
 fn nothing_fits(source: &SessionSource, card: &Card) -> IngestError {

@@ -149,8 +149,13 @@ impl<'a> Run<'a> {
         Ok(entries)
     }
 
-    /// Writes what is known only at the end, and gives the file its name.
-    pub fn finish(mut self, entries: &[ImageEntry], camera: &Camera) -> Result<IngestSummary, IngestError> {
+    /// Writes what is known only at the end, and gives the file its name. `listing`: what the listing of the card gave to tell.
+    pub fn finish(
+        mut self,
+        entries: &[ImageEntry],
+        camera: &Camera,
+        listing: &[Problem],
+    ) -> Result<IngestSummary, IngestError> {
         if self.progress.is_stopped() {
             return Err(IngestError::Stopped); // what was read may end anywhere
         }
@@ -162,7 +167,7 @@ impl<'a> Run<'a> {
             session: self.source.session.clone(),
             program: self.source.program.clone(),
             ingest_version: INGEST_VERSION,
-            key: key::key_as(self.keep, self.source, &self.inputs)?,
+            key: key::key_as(self.keep, self.source, &self.inputs, listing)?,
             time_zone: key::zone_name(&self.source.time_zone),
             counts: self.counts,
             timeline: self.timeline,

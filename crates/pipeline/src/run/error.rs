@@ -68,7 +68,7 @@ pub enum Halted {
     },
     /// What was kept of a session is damaged, and was damaged again after it was made anew.
     #[error(
-        "the work folder does not keep what is written there (session '{0}'); check the disk, or give --work another folder"
+        "the work folder does not keep what is written there (session '{0}'); check the disk, run with --force, or give --work another folder"
     )]
     NotKept(String),
 }

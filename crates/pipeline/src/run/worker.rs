@@ -10,6 +10,7 @@ use model::{Problem, SessionLog, SessionStatus, Severity, Stage};
 use super::plan::{Common, SessionPlan, of_recording, prepare};
 use super::{Halted, keys};
 use crate::inputs::sha256_of_bytes;
+use crate::labelme::MARKS_UNREADABLE;
 use crate::reporter::Reporter;
 use crate::session::{BAD_MCAP, Prepared, Recording, failed, ingest_problem, measure, read_recording, tidy};
 use crate::sessions::unless_panicking;
@@ -111,7 +112,7 @@ impl Worker<'_> {
         tidy(&mut output, self.common.study, &self.work.mcap_dir);
         log.measure_s = Some(start.elapsed().as_secs_f64());
         let kept = StageOutput {
-            key: if is_whole { &measure_key } else { "" },
+            key: if is_whole && !has_unread_marks(&output.status) { &measure_key } else { "" },
             fingerprint,
             seconds: start.elapsed().as_secs_f64(),
             output: &serde_json::to_string(&output)?,
@@ -233,6 +234,11 @@ impl Worker<'_> {
     fn mcap(&self, plan: &SessionPlan<'_>) -> PathBuf {
         self.work.mcap(&plan.dir.name)
     }
+}
+
+/// Marks that the system refused once may be there the next time, with nothing to tell them from those of before.
+fn has_unread_marks(status: &SessionStatus) -> bool {
+    status.problems.iter().any(|problem| problem.code == MARKS_UNREADABLE)
 }
 
 fn of_ingest(session: &str, error: IngestError) -> Trouble {

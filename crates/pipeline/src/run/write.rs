@@ -32,7 +32,7 @@ impl<'a> Writing<'a> {
     /// The sessions whose rows are not what was kept: a damaged disk. They are forgotten, to be made again.
     pub fn damaged(&self, plans: &[SessionPlan<'a>]) -> Result<Vec<&'a SessionDir>, Halted> {
         let mut damaged = Vec::new();
-        for plan in plans.iter().filter(|plan| plan.current.all()) {
+        for plan in plans {
             if self.work.state.output(&plan.dir.name, Stage::Measure)?.is_none() {
                 tracing::warn!(session = plan.dir.name, "what was kept of this session is damaged; it is made again");
                 self.work.state.forget(&plan.dir.name)?;

@@ -60,7 +60,12 @@ fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> V
         Ok(paths) => paths,
         Err(error) => {
             let fact = format!("cannot list the folder: {error}");
-            problems.push(problem("marks_unreadable", relative(session.study, dir), fact, "check its permissions"));
+            problems.push(problem(
+                labelme::MARKS_UNREADABLE,
+                relative(session.study, dir),
+                fact,
+                "check its permissions",
+            ));
             Vec::new()
         }
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use ingest::SessionSource;
 use model::{Camera, CameraSpec, Problem, Severity, Stage};
 
-use super::problems::{MARKS_CAMERA_FACT, bad_camera, link_out_of_study, missing_card};
+use super::problems::{MARKS_CAMERA_FACT, bad_camera, card_out_of_reach, link_out_of_study, missing_card};
 use super::relative;
 use crate::inputs::sha256_of_file;
 use crate::signals::PoseSettings;
@@ -26,6 +26,9 @@ pub(crate) struct Prepared {
 impl Prepared {
     pub fn new(study: &Study, dir: &SessionDir, program: &str) -> Result<Self, Problem> {
         let card = dir.card.as_deref().ok_or_else(|| missing_card(dir))?;
+        if let Err(error) = card.canonicalize() {
+            return Err(card_out_of_reach(dir, &error));
+        }
         if !study.holds(card) {
             return Err(link_out_of_study(dir));
         }

@@ -55,6 +55,18 @@ pub(super) fn link_out_of_study(dir: &SessionDir) -> Problem {
     }
 }
 
+/// A link that leads nowhere, or a folder that the system does not show.
+pub(super) fn card_out_of_reach(dir: &SessionDir, error: &std::io::Error) -> Problem {
+    Problem {
+        severity: Severity::Loss,
+        stage: Stage::Ingest,
+        code: "missing_card".to_owned(),
+        place: format!("cards/{}", dir.name),
+        fact: format!("the card's folder cannot be reached: {error}"),
+        remedy: "if it is a link, connect the disk that it leads to, or correct it; check permissions".to_owned(),
+    }
+}
+
 pub(super) fn missing_card(dir: &SessionDir) -> Problem {
     let raters: Vec<_> = dir.marks.keys().map(String::as_str).collect();
     Problem {

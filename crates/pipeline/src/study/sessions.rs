@@ -42,7 +42,7 @@ impl SessionDir {
     pub fn marks_files(&self) -> Vec<(String, PathBuf)> {
         let of_rater = |(rater, dir): (&String, &PathBuf)| {
             let files = marks_in(dir).unwrap_or_else(|_| vec![dir.clone()]);
-            let name = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let name = |path: &PathBuf| ingest::card::name_text(path.file_name().unwrap_or_default());
             files.into_iter().map(|path| (format!("{rater}/{}", name(&path)), path)).collect::<Vec<_>>()
         };
         self.marks.iter().flat_map(of_rater).collect()
@@ -81,15 +81,17 @@ pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
     if sessions.is_empty() { Err(StudyError::NoSessions(cards)) } else { Ok(sessions.into_values().collect()) }
 }
 
-/// Folders inside `dir`, hidden ones left out. Names that are not UTF-8 are shown with replacement characters.
+/// Folders inside `dir`, hidden ones left out. Odd bytes of names are written as those of files on cards are, so that no two
+/// sessions get the same.
 fn folders(dir: &Path) -> Result<Vec<(String, PathBuf)>, StudyError> {
     let refuse = |source| StudyError::List { path: dir.to_owned(), source };
     let mut found = Vec::new();
     for entry in std::fs::read_dir(dir).map_err(refuse)? {
         let entry = entry.map_err(refuse)?;
-        let name = entry.file_name().to_string_lossy().into_owned();
-        // Links are followed here, so that a linked card is told of when it leaves the study, and not passed over.
-        if std::fs::metadata(entry.path()).is_ok_and(|metadata| metadata.is_dir()) && !name.starts_with('.') {
+        let name = ingest::card::name_text(&entry.file_name());
+        // Links are followed here, so that a linked card is told of when it leaves the study, or leads nowhere because a disk
+        // is not there now, and not passed over.
+        if std::fs::metadata(entry.path()).map_or(true, |metadata| metadata.is_dir()) && !name.starts_with('.') {
             found.push((name, entry.path()));
         }
     }

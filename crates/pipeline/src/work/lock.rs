@@ -3,6 +3,7 @@
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read as _, Seek as _, Write as _};
 use std::path::Path;
+use std::time::Duration;
 
 use jiff::Timestamp;
 
@@ -18,7 +19,7 @@ impl Lock {
         let refuse = |source| WorkError::Lock { path: path.to_owned(), source };
         let open = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
         let mut file = open.map_err(refuse)?;
-        match file.try_lock() {
+        match try_lock(&file) {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
                 return Err(WorkError::Held { path: path.to_owned(), holder: told(&mut file) });
@@ -33,6 +34,17 @@ impl Lock {
         write.map_err(refuse)?;
         Ok(Self { _file: file })
     }
+}
+
+/// `status` looks whether the lock is held, and holds it for that moment: it is asked for more than once.
+fn try_lock(file: &File) -> Result<(), TryLockError> {
+    for _ in 0..10 {
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => std::thread::sleep(Duration::from_millis(20)),
+            other => return other,
+        }
+    }
+    file.try_lock()
 }
 
 /// Who is at work in a work folder.

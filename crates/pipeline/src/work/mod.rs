@@ -6,6 +6,7 @@
 //! | `mcap/SESSION.mcap` | the recording of a session |
 //! | `lock` | held by the run at work ([`lock`]) |
 
+mod database;
 mod error;
 mod lock;
 mod output;

@@ -3,41 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
 
 use jiff::Timestamp;
 use model::{SessionStatus, Stage};
 use rusqlite::{Connection, ErrorCode, OpenFlags, OptionalExtension as _, params};
 
+use super::database::{Refused, connect, look, set_aside};
 use super::{Kept, KeptStage, WorkError};
 use crate::inputs::sha256_of_bytes;
-
-/// Version of the tables. Another one's state is set aside, and all is made anew from the cards and MCAP files.
-const STATE_VERSION: i64 = 1;
-
-const TABLES: &str = "
-    CREATE TABLE IF NOT EXISTS stage (
-        session       TEXT NOT NULL,
-        stage         TEXT NOT NULL,  -- ingest, signals, measure
-        key           TEXT NOT NULL,  -- SHA-256 of what it was made from; empty: to be done again
-        fingerprint   TEXT,           -- of its input files: names, sizes, times
-        made_utc      TEXT NOT NULL,
-        seconds       REAL NOT NULL,
-        output_sha256 TEXT NOT NULL,
-        status        TEXT,           -- JSON: how the session fared, of stage measure
-        PRIMARY KEY (session, stage)
-    );
-    CREATE TABLE IF NOT EXISTS output ( -- apart, so that a look at all stages does not read them
-        session       TEXT NOT NULL,
-        stage         TEXT NOT NULL,
-        json          TEXT NOT NULL,
-        PRIMARY KEY (session, stage)
-    );
-    CREATE TABLE IF NOT EXISTS written (
-        id    INTEGER PRIMARY KEY CHECK (id = 1),
-        key   TEXT NOT NULL,          -- SHA-256 of all that went into the files of results
-        files TEXT NOT NULL           -- fingerprint of those files
-    );";
 
 /// What was last written as results.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -83,17 +56,19 @@ impl State {
         if !path.is_file() {
             return Ok(None);
         }
-        let open = || -> rusqlite::Result<Option<Connection>> {
-            let connection = Connection::open_with_flags(path, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
-            connection.busy_timeout(BUSY)?;
-            Ok((version(&connection)? == STATE_VERSION).then_some(connection))
+        let looked = match look(path, OpenFlags::SQLITE_OPEN_READ_ONLY) {
+            // A killed run left a journal. SQLite undoes what it had begun, as the next run would.
+            Err(Refused::Other(error)) if error.sqlite_error_code() == Some(ErrorCode::ReadOnly) => {
+                look(path, OpenFlags::SQLITE_OPEN_READ_WRITE)
+            }
+            other => other,
         };
-        match open() {
+        match looked {
             Ok(connection) => {
                 Ok(connection.map(|connection| Self { path: path.to_owned(), connection: Mutex::new(connection) }))
             }
-            Err(error) if is_damage(&error) => Ok(None),
-            Err(source) => Err(WorkError::State { path: path.to_owned(), source }),
+            Err(Refused::Unusable(_)) => Ok(None),
+            Err(refused) => Err(refused.error(path)),
         }
     }
 
@@ -105,19 +80,13 @@ impl State {
             let mut query = db.prepare(&format!("SELECT {columns} FROM stage"))?;
             let mut rows = query.query([])?;
             while let Some(row) = rows.next()? {
-                let stage = KeptStage {
-                    key: row.get(2)?,
-                    fingerprint: row.get(3)?,
-                    made_utc: row.get(4)?,
-                    seconds: row.get(5)?,
-                    output_sha256: row.get(6)?,
-                };
-                let session = kept.entry(row.get(0)?).or_default();
-                match row.get::<_, String>(1)?.as_str() {
+                let Some(stage) = unless_odd(stage_of(row))? else { continue };
+                let (session, name, stage, status) = stage;
+                let session = kept.entry(session).or_default();
+                match name.as_str() {
                     "ingest" => session.ingest = Some(stage),
                     "signals" => session.signals = Some(stage),
                     "measure" => {
-                        let status: Option<String> = row.get(7)?;
                         session.status = status.and_then(|text| serde_json::from_str(&text).ok());
                         // Without its status a session is measured anew.
                         session.measure = session.status.is_some().then_some(stage);
@@ -134,7 +103,8 @@ impl State {
         let found: Option<(String, String)> = self.with(|db| {
             let query = "SELECT json, output_sha256 FROM stage JOIN output USING (session, stage) \
                          WHERE session = ?1 AND stage = ?2";
-            db.query_row(query, [session, stage.code()], |row| Ok((row.get(0)?, row.get(1)?))).optional()
+            let found = db.query_row(query, [session, stage.code()], |row| Ok((row.get(0)?, row.get(1)?)));
+            Ok(unless_odd(found.optional())?.flatten())
         })?;
         let good = found.filter(|(output, sha256)| sha256_of_bytes(output.as_bytes()) == *sha256);
         Ok(good.map(|(output, _)| output))
@@ -148,9 +118,12 @@ impl State {
             let (name, now) = (stage.code(), Timestamp::now().to_string());
             let StageOutput { key, fingerprint, seconds, output, .. } = output;
             let both = db.unchecked_transaction()?;
-            let stage = "INSERT OR REPLACE INTO stage VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)";
+            let stage = "INSERT OR REPLACE INTO stage \
+                (session, stage, key, fingerprint, made_utc, seconds, output_sha256, status) \
+                VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)";
             both.execute(stage, params![session, name, key, fingerprint, now, seconds, sha256, status])?;
-            both.execute("INSERT OR REPLACE INTO output VALUES (?1, ?2, ?3)", params![session, name, output])?;
+            let insert = "INSERT OR REPLACE INTO output (session, stage, json) VALUES (?1, ?2, ?3)";
+            both.execute(insert, params![session, name, output])?;
             both.commit()
         })?;
         Ok(sha256)
@@ -176,13 +149,13 @@ impl State {
     pub fn written(&self) -> Result<Option<Written>, WorkError> {
         self.with(|db| {
             let found = |row: &rusqlite::Row<'_>| Ok(Written { key: row.get(0)?, files: row.get(1)? });
-            db.query_row("SELECT key, files FROM written", [], found).optional()
+            Ok(unless_odd(db.query_row("SELECT key, files FROM written", [], found).optional())?.flatten())
         })
     }
 
     /// Remembers what was written as results.
     pub fn set_written(&self, written: &Written) -> Result<(), WorkError> {
-        let insert = "INSERT OR REPLACE INTO written VALUES (1, ?1, ?2)";
+        let insert = "INSERT OR REPLACE INTO written (id, key, files) VALUES (1, ?1, ?2)";
         self.with(|db| db.execute(insert, params![written.key, written.files])).map(|_| ())
     }
 
@@ -195,75 +168,23 @@ impl State {
     }
 }
 
-/// Why a state file cannot be opened.
-enum Refused {
-    /// It is damaged, or of an older program.
-    Unusable(String),
-    Newer(i64),
-    Other(rusqlite::Error),
-}
-
-impl Refused {
-    fn error(self, path: &Path) -> WorkError {
-        let path = path.to_owned();
-        match self {
-            Self::Newer(got) => WorkError::Newer { path, expected: STATE_VERSION, got },
-            Self::Other(source) => WorkError::State { path, source },
-            Self::Unusable(why) => WorkError::Unusable { path, why },
-        }
-    }
-}
-
-impl From<rusqlite::Error> for Refused {
-    fn from(error: rusqlite::Error) -> Self {
-        if is_damage(&error) {
-            Self::Unusable(format!("the state file is damaged ({error})"))
-        } else {
-            Self::Other(error)
-        }
-    }
-}
-
-fn is_damage(error: &rusqlite::Error) -> bool {
-    matches!(error.sqlite_error_code(), Some(ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase))
-}
-
-/// Others only look, for moments.
-const BUSY: Duration = Duration::from_secs(30);
-
-fn connect(path: &Path) -> Result<Connection, Refused> {
-    let connection = Connection::open(path)?;
-    connection.busy_timeout(BUSY)?;
-    connection.pragma_update(None, "page_size", 32 * 1024)?; // for a new file: outputs are long
-    // A rollback journal, not a write-ahead log: work folders lie on network file systems too.
-    connection.pragma_update(None, "journal_mode", "DELETE")?;
-    connection.pragma_update(None, "synchronous", "FULL")?;
-    let found: String = connection.query_row("PRAGMA quick_check(1)", [], |row| row.get(0))?;
-    if found != "ok" {
-        return Err(Refused::Unusable(format!("the state file is damaged ({found})")));
-    }
-    match version(&connection)? {
-        0 => {
-            connection.execute_batch(&format!("BEGIN; {TABLES} PRAGMA user_version = {STATE_VERSION}; COMMIT;"))?;
-        }
-        STATE_VERSION => {}
-        newer if newer > STATE_VERSION => return Err(Refused::Newer(newer)),
-        older => return Err(Refused::Unusable(format!("the state file is of version {older}"))),
-    }
-    Ok(connection)
-}
-
-fn version(connection: &Connection) -> rusqlite::Result<i64> {
-    connection.query_row("PRAGMA user_version", [], |row| row.get(0))
-}
-
-fn set_aside(path: &Path) -> Result<(), WorkError> {
-    let with = |suffix: &str| PathBuf::from(format!("{}{suffix}", path.display()));
-    // A journal belongs to the file that is set aside; beside a new one it would be played into it.
-    let journal = match std::fs::remove_file(with("-journal")) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
+/// A row of stages: session, stage, what is kept, status.
+fn stage_of(row: &rusqlite::Row<'_>) -> rusqlite::Result<(String, String, KeptStage, Option<String>)> {
+    let stage = KeptStage {
+        key: row.get(2)?,
+        fingerprint: row.get(3)?,
+        made_utc: row.get(4)?,
+        seconds: row.get(5)?,
+        output_sha256: row.get(6)?,
     };
-    let moved = journal.and_then(|()| std::fs::rename(path, with(".old")));
-    moved.map_err(|source| WorkError::Folder { path: path.to_owned(), source })
+    Ok((row.get(0)?, row.get(1)?, stage, row.get(7)?))
+}
+
+/// SQLite keeps values of any type in any column. One of another type was put there by other hands, and counts as none.
+fn unless_odd<T>(value: rusqlite::Result<T>) -> rusqlite::Result<Option<T>> {
+    use rusqlite::Error::{FromSqlConversionFailure, IntegralValueOutOfRange, InvalidColumnType};
+    match value {
+        Err(FromSqlConversionFailure(..) | IntegralValueOutOfRange(..) | InvalidColumnType(..)) => Ok(None),
+        other => other.map(Some),
+    }
 }

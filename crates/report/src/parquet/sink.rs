@@ -79,6 +79,7 @@ impl ParquetSink {
         if results == frames {
             return Err(SinkError::SamePath { path: results.to_owned() });
         }
+        atomic::check(&run_file(results))?;
         let files = Some((RowFile::create(results)?, RowFile::create(frames)?));
         Ok(Self { results: results.to_owned(), frames: frames.to_owned(), files })
     }

@@ -1,0 +1,47 @@
+//! Where a run may write: not over the ledger of another run, and not among the cards and marks.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use pipeline::Study;
+
+use crate::args::PlaceArgs;
+use crate::exit::Failure;
+
+/// What is wrong with the name of the output.
+pub fn check_name(out: &Path) -> Result<(), Failure> {
+    let refuse = |fact: &str| Err(Failure::Usage(anyhow!("--out {}: {fact}", out.display())));
+    if out.extension().is_none_or(|extension| extension != "parquet") {
+        return refuse("expected a name that ends in .parquet");
+    }
+    let stem = out.file_stem().unwrap_or_default().to_string_lossy();
+    if stem == "." {
+        return refuse("expected a name before .parquet");
+    }
+    if stem == "frames" || stem.ends_with(".frames") {
+        return refuse("this is what the ledger of another output is called; give another name");
+    }
+    Ok(())
+}
+
+/// What is written among the cards would be taken for a session, or for a file of a card, by the next run.
+pub fn check_apart(place: &PlaceArgs, study: &Study) -> Result<(), Failure> {
+    for (option, path) in [("--out", &place.out), ("--work", &place.work_dir())] {
+        let whole = whole(path);
+        for part in ["cards", "marks"] {
+            if study.dir.join(part).canonicalize().is_ok_and(|part| whole.starts_with(part)) {
+                let path = path.display();
+                return Err(Failure::Usage(anyhow!("{option} {path}: expected a place outside the study's {part}/")));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A path with links followed as far as it exists.
+fn whole(path: &Path) -> PathBuf {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let there =
+        path.ancestors().find_map(|folder| Some((folder.canonicalize().ok()?, path.strip_prefix(folder).ok()?)));
+    there.map_or_else(|| path.clone(), |(folder, rest)| folder.join(rest))
+}
