@@ -59,6 +59,8 @@ pub struct StageLog {
     pub done: usize,
     /// Sessions for which it was kept from an earlier run.
     pub kept: usize,
+    /// Sessions that failed at this stage or before it.
+    pub failed: usize,
     /// Sum over the sessions; several are at work at a time.
     pub seconds: f64,
 }

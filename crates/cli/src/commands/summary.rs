@@ -61,9 +61,13 @@ pub fn tell_summary(finished: &Finished<'_>, format: LogFormat) {
 
 /// Seconds by stage.
 fn work(ran: &Ran) -> String {
-    let of_stage = |stage: &StageLog| match stage.done {
-        0 => format!("{} kept", stage.stage),
-        done => format!("{} {:.1} s ({done} done, {} kept)", stage.stage, stage.seconds, stage.kept),
+    let of_stage = |stage: &StageLog| {
+        let StageLog { stage, done, kept, failed, seconds } = stage;
+        let failed = if *failed > 0 { format!(", {failed} failed") } else { String::new() };
+        match done {
+            0 => format!("{stage} kept{failed}"),
+            done => format!("{stage} {seconds:.1} s ({done} done, {kept} kept{failed})"),
+        }
     };
     let stages: Vec<String> = ran.stages.iter().map(of_stage).collect();
     format!("{:.1} s in all; {}\n", ran.seconds, stages.join(", "))

@@ -38,7 +38,10 @@ impl Tally {
     pub fn stages(&self) -> Vec<StageLog> {
         let of = |stage, seconds: fn(&SessionLog) -> Option<f64>| {
             let all: Vec<f64> = self.logs.iter().filter_map(seconds).collect();
-            StageLog { stage, done: all.len(), kept: self.statuses.len() - all.len(), seconds: all.iter().sum() }
+            let did = |session: &str| self.logs.iter().any(|log| log.session == session && seconds(log).is_some());
+            let failed = self.statuses.values().filter(|status| status.failed && !did(&status.session)).count();
+            let kept = self.statuses.len() - all.len() - failed;
+            StageLog { stage, done: all.len(), kept, failed, seconds: all.iter().sum() }
         };
         vec![
             of(Stage::Ingest, |log| log.ingest_s),
