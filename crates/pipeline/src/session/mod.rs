@@ -2,10 +2,12 @@
 
 mod fuse;
 mod lag;
+mod ledger;
 mod marks;
+mod measurement;
 mod problems;
 mod read;
-mod rows;
+mod row;
 #[cfg(test)]
 mod tests;
 
@@ -19,11 +21,11 @@ use crate::inputs::sha256_of_file;
 use crate::reporter::Reporter;
 use crate::signals::FrameSignals;
 use crate::study::{SessionDir, SessionSpec, Study};
+pub(crate) use ledger::ledger_of_failed;
 use marks::SessionMarks;
 pub(crate) use problems::without_host;
 use problems::{MARKS_CAMERA_FACT, bad_camera, link_out_of_study, missing_card, no_pose};
 use read::Read;
-pub(crate) use rows::ledger_of_failed;
 
 /// What one session gives.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -125,9 +127,12 @@ fn fill(
     reporter.stage(&dir.name, Stage::Marks);
     let marks = SessionMarks::read(&session, output);
     reporter.stage(&dir.name, Stage::Measure);
-    output.results = rows::measure_all(&session, &marks, &mut output.status.problems);
-    output.results.extend(fuse::fuse(&output.results));
-    output.frames = rows::ledger(&session, &marks, &output.results);
+    let marked = measurement::marked(&session, &marks, &mut output.status.problems);
+    let mut measurements = measurement::measure_all(&marked, &mut output.status.problems);
+    let fused = fuse::fuse(study, &marked, &mut measurements);
+    let asked = |row: &ResultRow| study.spec.measure.methods.contains(&row.method);
+    output.results = measurements.into_iter().map(|measurement| measurement.row).filter(asked).chain(fused).collect();
+    output.frames = ledger::ledger(&session, &marks, &output.results);
     output.status.images = output.frames.len();
     output.status.with_pose = session.frames.iter().filter(|f| f.signals.pose.is_some()).count();
     output.status.problems.extend(no_pose(&session));

@@ -6,6 +6,7 @@ mod objects;
 mod printed;
 mod sessions;
 mod spec;
+mod uncertainty;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -18,8 +19,9 @@ pub use objects::Object;
 pub use sessions::{SessionDir, SessionSpec};
 pub use spec::{
     GravityCalibrate, MarksSpec, MeasureSpec, MountSpec, PrintedFiles, RangeCone, SelectSpec, SignalsSpec, StudySpec,
-    TableEntry, TimeSpec, UncertaintySpec,
+    TableEntry, TimeSpec,
 };
+pub use uncertainty::UncertaintySpec;
 
 /// A study whose settings have been read and checked.
 #[derive(Debug, Clone)]
