@@ -40,6 +40,26 @@ pub struct InputSigma {
     pub learned: Option<Matrix4<f64>>,
 }
 
+impl Default for InputSigma {
+    /// What `[uncertainty]` of a study has when it says nothing; docs/uncertainty.md tells where each number is from.
+    fn default() -> Self {
+        Self {
+            pitch_rad: 1.0_f64.to_radians(), // 17 mg; ADXL362 data sheet: zero-g offset of tens of mg
+            tilt_rad: 1.0_f64.to_radians(),  // likewise
+            mount_rad: 0.5_f64.to_radians(), // assembly of housing and glasses
+            range_relative: 0.03,            // VL53L0X: about 3 % uncalibrated
+            range_offset_mm: 3.0,            // VL53L0X: what is left of the offset behind a cover
+            focal_relative: 0.005,           // scatter of board calibrations
+            principal_px: 5.0,               // likewise
+            distortion_px: 2.0,              // residual of a one-parameter lens model at the corner
+            turn_noise_rad: 0.2_f64.to_radians(), // sway of a head at rest
+            range_noise_mm: 2.0,             // VL53L0X: drift between moments, beyond the readings' scatter
+            mark_px: 2.0,                    // repeated clicks on one edge
+            learned: None,
+        }
+    }
+}
+
 /// The sources that a bench with known sizes can teach about, in the order of [`InputSigma::learned`].
 pub const LEARNED: [Source; 4] = [Source::Mount, Source::RangeScale, Source::RangeOffset, Source::Focal];
 

@@ -99,7 +99,7 @@ fn the_best_is_one_of_the_others_and_says_which() {
     let best: Vec<_> = frames.iter().filter(|row| row.method == Method::Best).collect();
     assert!(!best.is_empty() && best.len() * 3 == frames.len(), "paper, ray and best; no base is outlined");
     for row in best {
-        let same = |other: &&&model::ResultRow| {
+        let same = |other: &&&ResultRow| {
             (&other.image, &other.object, &other.rater, other.quantity)
                 == (&row.image, &row.object, &row.rater, row.quantity)
                 && other.method == row.method_used.unwrap()

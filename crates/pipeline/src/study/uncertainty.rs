@@ -34,20 +34,21 @@ pub struct UncertaintySpec {
 }
 
 impl Default for UncertaintySpec {
+    /// [`InputSigma::default`] in this file's units.
     fn default() -> Self {
         Self {
-            pitch_deg: 1.0,       // 17 mg: ADXL362 data sheet, zero-g offset of tens of mg
-            tilt_deg: 1.0,        // likewise
-            mount_deg: 0.5,       // assembly of glasses and housing; calibrate learns it
-            range_pct: 3.0,       // VL53L0X data sheet: about 3 % uncalibrated
-            range_offset_mm: 3.0, // VL53L0X data sheet: offset after reflow, calibrated at the factory to a few mm
-            focal_pct: 0.5,       // spread of repeated board calibrations
-            principal_px: 5.0,    // likewise
-            distortion_px: 2.0,   // residual of a one-parameter lens model at the corner
-            turn_noise_deg: 0.2,  // a worn head at rest sways by tenths of a degree
-            motion_share: 0.33,   // a low-pass of 0.5 s over motion that keeps its direction for 0.2 s
-            range_noise_mm: 2.0,  // VL53L0X: resolution 1 mm, repeatability 1 to 2 % over a second of readings
-            mark_px: 2.0,         // repeated clicks on an edge
+            pitch_deg: 1.0,
+            tilt_deg: 1.0,
+            mount_deg: 0.5,
+            range_pct: 3.0,
+            range_offset_mm: 3.0,
+            focal_pct: 0.5,
+            principal_px: 5.0,
+            distortion_px: 2.0,
+            turn_noise_deg: 0.2,
+            motion_share: 0.33, // a low-pass of 0.5 s over motion that keeps its direction for 0.2 s
+            range_noise_mm: 2.0,
+            mark_px: 2.0,
         }
     }
 }
@@ -101,5 +102,24 @@ impl UncertaintySpec {
             ("uncertainty.range_noise_mm", self.range_noise_mm),
             ("uncertainty.mark_px", self.mark_px),
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defaults_are_the_models() {
+        assert_eq!(UncertaintySpec::default().inputs(), InputSigma::default());
+    }
+
+    #[test]
+    fn motion_and_unsteady_range_make_an_image_less_sure() {
+        let spec = UncertaintySpec::default();
+        let (still, moving) = (spec.inputs_of_image(0.0, 0.0), spec.inputs_of_image(50.0, 6.0));
+        assert_eq!(still, spec.inputs());
+        assert!((moving.turn_noise_rad - 0.2_f64.to_radians().hypot(0.33 * 0.05)).abs() < 1e-12);
+        assert!((moving.range_noise_mm - 2.0_f64.hypot(6.0)).abs() < 1e-12);
     }
 }
