@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
-use model::{Kind, Method, Shape};
+use model::{Kind, Method, Shape, Wall};
 
 use crate::logging::LogFormat;
 
@@ -89,7 +89,7 @@ pub struct RunArgs {
 /// Settings that win over study.toml.
 #[derive(Debug, clap::Args)]
 pub struct SettingsArgs {
-    /// Methods (paper, ray), separated by commas; default: those of study.toml
+    /// Methods (paper, ray, coaxial, joint, best), separated by commas; default: those of study.toml
     #[arg(long, env = "AIM_BATCH_METHOD", value_delimiter = ',')]
     pub method: Vec<Method>,
     /// Pitch near which frames are selected, in degrees; default: study.toml's
@@ -219,6 +219,9 @@ pub struct MeasureArgs {
     /// Height of the rim above the table in mm, where it is known and not to be measured
     #[arg(long, value_name = "MM")]
     pub rim_height: Option<f64>,
+    /// How the wall stands, where it is known: vertical or sloped (a box's is vertical)
+    #[arg(long)]
+    pub wall: Option<Wall>,
     /// JSON on stdout
     #[arg(long)]
     pub json: bool,

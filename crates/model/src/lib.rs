@@ -29,6 +29,7 @@
 //! ```
 #![warn(missing_docs)]
 
+pub mod calibrate;
 mod camera;
 mod camera_spec;
 mod circle;

@@ -27,8 +27,8 @@ pub enum MeasureError {
     NoHeight,
     /// The second end of a height line is not behind the first one.
     #[error(
-        "the rim comes out below the table: draw a height line from the wall's foot on the table to the rim above it, and \
-         do not swap the outlines of rim and base"
+        "the rim lies towards the wearer from the foot on the table plane: draw a height line from the wall's foot on the \
+         table to the rim above it, and do not swap the outlines of rim and base"
     )]
     RimBelowFoot,
     /// A height that a wall seen from above cannot have.

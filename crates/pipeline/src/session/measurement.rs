@@ -173,7 +173,8 @@ fn measurement(
     })
 }
 
-/// What no method could measure, each kind of it once; and objects whose marks give nothing at all.
+/// What could not be measured, each kind of it once; and objects whose marks give nothing at all. A height that nobody marked
+/// is no problem where another method does without.
 fn tell(
     marked: &Marked<'_>,
     sizes: &[(Method, Quantity, Result<Estimate, MeasureError>)],
@@ -183,7 +184,7 @@ fn tell(
     let mut told = BTreeSet::new();
     for (_, quantity, size) in sizes {
         if let Err(error) = size
-            && !measured.contains(quantity)
+            && !(*error == MeasureError::NoHeight && measured.contains(quantity))
             && told.insert((*quantity, error.code()))
         {
             problems.push(unmeasured(marked, *quantity, error));

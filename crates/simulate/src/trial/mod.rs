@@ -10,9 +10,7 @@ mod measured;
 mod scene;
 mod score;
 
-use std::collections::BTreeMap;
-
-use model::{Estimate, InputSigma, Method, Pose, Quantity, Share, View, best_of, estimate, fuse, joint_height, sights};
+use model::{InputSigma, Method, ObjectMarks, Pose, Quantity, View};
 use nalgebra::Point2;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -75,7 +73,7 @@ pub fn run(options: &Options) -> Vec<Trial> {
 /// An image as it is measured.
 struct Image {
     view: View,
-    marks: model::ObjectMarks,
+    marks: ObjectMarks,
 }
 
 /// Half the field of setups that the paper's bench and wearers span.
