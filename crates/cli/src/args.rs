@@ -40,6 +40,8 @@ pub enum Command {
     Check(CheckArgs),
     /// What is in a recording: channels, rates, gaps, clocks, pitch, range, images
     Inspect(InspectArgs),
+    /// What a bench with known sizes tells of a device: calibration.toml, for run --calibration
+    Calibrate(CalibrateArgs),
     /// One SD card to one MCAP file
     Ingest(IngestArgs),
     /// Tables again, from the files that run wrote
@@ -75,6 +77,9 @@ pub struct RunArgs {
     /// Also write the tables to this folder (CSV, Markdown, LaTeX)
     #[arg(long, env = "AIM_BATCH_REPORT")]
     pub report: Option<PathBuf>,
+    /// Corrections that aim-batch calibrate has learned for the device (docs/calibration.md)
+    #[arg(long, value_name = "FILE.toml", env = "AIM_BATCH_CALIBRATION")]
+    pub calibration: Option<PathBuf>,
     /// Settings in place of study.toml's
     #[command(flatten)]
     pub settings: SettingsArgs,
@@ -117,6 +122,19 @@ pub struct CheckArgs {
     /// Settings in place of study.toml's
     #[command(flatten)]
     pub settings: SettingsArgs,
+}
+
+/// `calibrate`.
+#[derive(Debug, clap::Args)]
+pub struct CalibrateArgs {
+    /// Folder of the study (docs/study.md), with true sizes in objects.csv; nothing is written into it
+    pub study: PathBuf,
+    /// The file to write
+    #[arg(short, long, default_value = "calibration.toml")]
+    pub out: PathBuf,
+    /// Sessions at a time; default: the cores that this process may use
+    #[arg(short, long, env = "AIM_BATCH_JOBS")]
+    pub jobs: Option<NonZeroUsize>,
 }
 
 /// `inspect`.

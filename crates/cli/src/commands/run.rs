@@ -2,6 +2,7 @@
 
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
+use pipeline::calibrate::CalibrationFile;
 use pipeline::{RunOptions, Study};
 
 use super::summary::tell_summary;
@@ -15,6 +16,10 @@ use crate::progress::Bars;
 pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Failure> {
     check(args)?;
     let study = Study::load(&args.study, |spec| settings::apply(&args.settings, spec)).map_err(Failure::usage)?;
+    let study = match &args.calibration {
+        Some(path) => study.calibrated(CalibrationFile::read(path).map_err(Failure::usage)?),
+        None => study,
+    };
     let frames = ::report::frames_file(&args.out);
     let options = RunOptions {
         jobs: args.jobs,

@@ -145,7 +145,7 @@ pub struct Physical {
     pub correction: Correction,
     /// Which of [`LEARNED`] the data determine better than they are known beforehand.
     pub determined: [bool; 4],
-    /// SD of each that the data alone give, when it is fitted with those that are determined; none where they say nothing.
+    /// SD of each that the data alone give, fitted with those that are determined; none where they say nothing.
     pub sd: [Option<f64>; 4],
     /// Covariance, in the order of [`LEARNED`]; of what is not determined, what was known beforehand.
     pub covariance: Matrix4<f64>,
@@ -203,8 +203,9 @@ struct Fitted {
     refused_sd: [Option<f64>; 4],
 }
 
-/// What is known of a parameter beforehand. The mount's holds the accelerometer's pitch.
-fn prior_sd(prior: &InputSigma, source: Source) -> f64 {
+/// What is known of a parameter of [`LEARNED`] beforehand, in its own unit. The mount's holds the accelerometer's pitch.
+#[must_use]
+pub fn prior_sd(prior: &InputSigma, source: Source) -> f64 {
     if source == Source::Mount { prior.mount_rad.hypot(prior.pitch_rad) } else { prior.of(source) }
 }
 
@@ -215,22 +216,35 @@ fn fit(sizes: &[&BenchSize], prior: &InputSigma) -> Result<Fitted, CorrectionErr
     }
     let mut free: Vec<usize> = (0..LEARNED.len()).filter(|&i| prior_sd(prior, LEARNED[i]) > 0.0).collect();
     let mut refused_sd = [None; 4];
-    loop {
-        let solution = solve(sizes, &free, prior)?;
-        let ratio = |row: usize| {
-            let sd =
-                solution.covariance[(row, row)].sqrt() / prior_sd(prior, LEARNED[free[row]]).max(f64::MIN_POSITIVE);
-            if sd.is_finite() { sd } else { f64::INFINITY }
-        };
-        let worst = (0..free.len()).max_by(|a, b| ratio(*a).total_cmp(&ratio(*b)));
-        match worst {
-            Some(row) if ratio(row) >= 1.0 => {
-                refused_sd[free[row]] = Some(solution.covariance[(row, row)].sqrt()).filter(|sd| sd.is_finite());
-                free.remove(row);
-            }
-            _ => return Ok(Fitted { solution, free, refused_sd }),
+    let mut solution = solve(sizes, &free, prior)?;
+    while let Some(row) = worst(&solution, &free, prior) {
+        refused_sd[free[row]] = Some(solution.covariance[(row, row)].sqrt()).filter(|sd| sd.is_finite());
+        free.remove(row);
+        solution = solve(sizes, &free, prior)?;
+    }
+    // What was left out early may be determined now that others are out.
+    for i in (0..LEARNED.len()).filter(|&i| prior_sd(prior, LEARNED[i]) > 0.0) {
+        if free.contains(&i) {
+            continue;
+        }
+        let with: Vec<usize> = (0..LEARNED.len()).filter(|j| *j == i || free.contains(j)).collect();
+        let more = solve(sizes, &with, prior)?;
+        let row = with.iter().position(|j| *j == i).unwrap_or_default();
+        refused_sd[i] = Some(more.covariance[(row, row)].sqrt()).filter(|sd| sd.is_finite());
+        if worst(&more, &with, prior).is_none() {
+            (free, solution) = (with, more);
         }
     }
+    Ok(Fitted { solution, free, refused_sd })
+}
+
+/// The parameter that the data tell least of against what is known beforehand; none where they tell more of all.
+fn worst(solution: &Solution, free: &[usize], prior: &InputSigma) -> Option<usize> {
+    let ratio = |row: usize| {
+        let sd = solution.covariance[(row, row)].sqrt() / prior_sd(prior, LEARNED[free[row]]);
+        if sd.is_finite() { sd } else { f64::INFINITY }
+    };
+    (0..free.len()).max_by(|a, b| ratio(*a).total_cmp(&ratio(*b))).filter(|row| ratio(*row) >= 1.0)
 }
 
 struct Solution {

@@ -10,6 +10,7 @@ use model::{
 use super::marks::SessionMarks;
 use super::row::frame_row;
 use super::{Frame, Session};
+use crate::calibrate::{corrected_view, inputs_after, scaled_paper};
 use crate::study::{Object, Study};
 
 /// One object as one rater marked it on one frame.
@@ -28,7 +29,8 @@ pub(super) struct Marked<'a> {
 impl Marked<'_> {
     /// The view that a method works with; none without a pose.
     pub(super) fn view(&self, method: Method) -> Option<View> {
-        Some(View::new(self.session.marks_camera, self.frame.signals.pose_for(method)?))
+        let view = View::new(self.session.marks_camera, self.frame.signals.pose_for(method)?);
+        corrected_view(self.session.study.calibration.as_ref(), method, view)
     }
 }
 
@@ -88,7 +90,8 @@ fn inputs_of(study: &Study, frame: &Frame) -> InputSigma {
     let signals = &frame.signals;
     let readings = f64::from(signals.range_distinct.max(1));
     let range_error_mm = signals.range_spread_mm.unwrap_or_default() / readings.sqrt();
-    study.spec.uncertainty.inputs_of_image(signals.stillness_mg.unwrap_or_default(), range_error_mm)
+    let inputs = study.spec.uncertainty.inputs_of_image(signals.stillness_mg.unwrap_or_default(), range_error_mm);
+    inputs_after(study.calibration.as_ref(), inputs)
 }
 
 /// Doubts about an image that its uncertainties do not hold: motion near the threshold, readings of the range that scatter
@@ -116,7 +119,7 @@ fn measure_one(marked: &Marked<'_>, problems: &mut Vec<Problem>) -> Vec<Measurem
         .filter_map(|method| Some((method, marked.view(method)?)))
         .flat_map(|(method, view)| {
             let found = estimate(&view, method, &marked.object.container, marked.marks, &marked.inputs);
-            found.into_iter().map(move |(quantity, size)| (method, quantity, size.map(|e| without_cone(marked, e))))
+            found.into_iter().map(move |(quantity, size)| (method, quantity, size.map(|e| as_read(marked, &view, e))))
         })
         .collect();
     tell(marked, &sizes, problems);
@@ -129,10 +132,13 @@ fn measure_one(marked: &Marked<'_>, problems: &mut Vec<Problem>) -> Vec<Measurem
         .collect()
 }
 
-/// The paper's method takes the range as it was read; where the study says that this is not the distance, that is a doubt.
-fn without_cone(marked: &Marked<'_>, mut estimate: Estimate) -> Estimate {
-    let signals = &marked.frame.signals;
-    let differs = signals.pose_for(Method::Paper) != signals.pose_for(Method::Ray);
+/// The paper's method takes readings as they are, and has a line in tan(pitch) at most; where the study or its calibration
+/// says that readings are off, that is a doubt.
+fn as_read(marked: &Marked<'_>, view: &View, estimate: Estimate) -> Estimate {
+    let study = marked.session.study;
+    let kind = marked.object.container.kind;
+    let mut estimate = scaled_paper(study.calibration.as_ref(), kind, view, &marked.inputs, estimate);
+    let differs = marked.view(Method::Paper) != marked.view(Method::Ray);
     if estimate.method == Method::Paper && differs && !estimate.doubts.contains(&Doubt::PaperApproximation) {
         estimate.doubts.push(Doubt::PaperApproximation);
     }
@@ -163,9 +169,9 @@ fn measurement(
     size: Result<Estimate, MeasureError>,
 ) -> Option<Measurement> {
     let used = size.as_ref().map_or(method, |estimate| estimate.method);
-    let pose = marked.frame.signals.pose_for(used)?;
+    let view = marked.view(used)?;
     Some(Measurement {
-        row: frame_row(marked, pose, method, quantity, &size),
+        row: frame_row(marked, *view.pose(), method, quantity, &size),
         estimate: size.ok(),
         inputs: marked.inputs,
         picture: marked.number,

@@ -1,5 +1,6 @@
 //! The road of one session: card -> MCAP -> signals -> marks -> sizes -> rows.
 
+mod bench;
 mod fuse;
 mod lag;
 mod ledger;
@@ -17,6 +18,7 @@ use std::path::{Path, PathBuf};
 use ingest::{DroppedImage, ImageEntry, IngestProgress, Ingested, SessionSource};
 use model::{Camera, FrameRow, Problem, ResultRow, SessionStatus, Severity, Stage};
 
+use crate::calibrate::BenchSession;
 use crate::inputs::sha256_of_file;
 use crate::reporter::Reporter;
 use crate::signals::FrameSignals;
@@ -38,6 +40,8 @@ pub struct SessionOutput {
     pub frames: Vec<FrameRow>,
     /// SHA-256 of what was read, by path relative to the study.
     pub inputs_sha256: BTreeMap<String, String>,
+    /// Known sizes, for a calibration; only of a survey.
+    pub bench: BenchSession,
 }
 
 /// Settings of a run that are not the study's.
@@ -128,6 +132,9 @@ fn fill(
     let marks = SessionMarks::read(&session, output);
     reporter.stage(&dir.name, Stage::Measure);
     let marked = measurement::marked(&session, &marks, &mut output.status.problems);
+    if options.survey {
+        output.bench = bench::of(&session, &marked);
+    }
     let mut measurements = measurement::measure_all(&marked, &mut output.status.problems);
     let fused = fuse::fuse(study, &marked, &mut measurements);
     let asked = |row: &ResultRow| study.spec.measure.methods.contains(&row.method);

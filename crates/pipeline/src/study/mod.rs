@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use ingest::Profile;
 use model::{Camera, CameraSpec, TableSpec};
 
+use crate::calibrate::CalibrationFile;
 pub use error::StudyError;
 pub use objects::Object;
 pub use sessions::{SessionDir, SessionSpec};
@@ -44,6 +45,8 @@ pub struct Study {
     pub time_zone: jiff::tz::TimeZone,
     /// Sessions, by name: those with a card, and those that are only marked.
     pub sessions: Vec<SessionDir>,
+    /// What a bench has taught about the device, where a run is told of it.
+    pub calibration: Option<CalibrationFile>,
 }
 
 impl Study {
@@ -71,10 +74,21 @@ impl Study {
             sessions: sessions::find(dir)?,
             dir: dir.to_owned(),
             spec,
+            calibration: None,
         };
         camera_of(&study.spec.camera, &study.camera_spec)?;
         study.check_tables()?;
         Ok(study)
+    }
+
+    /// The study with a calibration, whose range cone it takes over.
+    #[must_use]
+    pub fn calibrated(mut self, calibration: CalibrationFile) -> Self {
+        if let Some(physical) = &calibration.physical {
+            self.spec.signals.range_cone = physical.range_cone;
+        }
+        self.calibration = Some(calibration);
+        self
     }
 
     /// The camera of a session: its own, or the study's.
