@@ -53,6 +53,7 @@ mod status;
 mod table;
 mod time;
 mod uncertainty;
+pub mod validation;
 mod view;
 
 pub use camera::{Camera, CameraError};
