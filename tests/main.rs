@@ -4,6 +4,7 @@
 #![allow(clippy::print_stdout, reason = "what was measured, and what was skipped, shows with --nocapture")]
 
 mod bad_input;
+mod calibrate;
 mod check;
 mod damage;
 mod documents;

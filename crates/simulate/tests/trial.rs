@@ -1,7 +1,7 @@
 //! The simulated bench of docs/accuracy.md: what it must show.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use aim_batch_simulate::trial::{Level, Line, Options, Subject, run, score};
+use aim_batch_simulate::trial::{Level, Line, Options, Score, Subject, run, score};
 use model::{InputSigma, Method, Quantity};
 
 /// Sessions that share a device are one draw: with fewer of them the coverage says little.
@@ -9,9 +9,10 @@ const FEWEST_CLAIMED: usize = 400;
 
 #[test]
 fn intervals_cover_and_the_new_methods_are_better() {
-    let trials = run(&Options { sessions: 1000, images: 3, ..Options::default() });
+    let trials = run(&Options::default());
     assert!(trials.len() > 2000);
     let score = score(&trials);
+    documented(&score);
     let mut seen = 0;
     for line in score.lines.iter().filter(|line| line.claimed >= FEWEST_CLAIMED) {
         assert!((0.93..=0.97).contains(&line.within_2), "95 %: {line:?}");
@@ -38,6 +39,17 @@ fn intervals_cover_and_the_new_methods_are_better() {
         let surest = score.lines.iter().filter(same).map(|line| line.rmse_pct).fold(f64::INFINITY, f64::min);
         assert!(best.rmse_pct <= 1.1 * surest, "{best:?} against {surest}");
     }
+}
+
+/// Every line of the document's table is one of the score's.
+fn documented(score: &Score) {
+    let document = include_str!("../../../docs/accuracy.md");
+    let lines = document.lines().filter(|line| line.starts_with("| image |") || line.starts_with("| session |"));
+    let found = score.markdown();
+    for line in lines.clone() {
+        assert!(found.contains(line), "docs/accuracy.md has, and the bench does not give: {line}");
+    }
+    assert!(lines.count() > 50);
 }
 
 #[test]
