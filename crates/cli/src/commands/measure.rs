@@ -162,8 +162,7 @@ fn text(sizes: &[Size], inputs: &InputSigma) -> String {
     let _ = writeln!(text, "{:width$}  quantity  method     size, mm   sigma, mm  on plane Z, mm  doubts", "object");
     for size in sizes {
         let number = |value: Option<f64>, digits| value.map_or("-".to_owned(), |v| format!("{v:.digits$}"));
-        let _ = writeln!(
-            text,
+        let line = format!(
             "{:width$}  {:8}  {:7}  {:>10}  {:>10}  {:>14}  {}",
             size.object,
             size.quantity,
@@ -173,6 +172,7 @@ fn text(sizes: &[Size], inputs: &InputSigma) -> String {
             number(size.plane_z_mm, 1),
             size.doubts.iter().map(|doubt| doubt.code()).collect::<Vec<_>>().join(","),
         );
+        let _ = writeln!(text, "{}", line.trim_end());
     }
     let _ = writeln!(
         text,

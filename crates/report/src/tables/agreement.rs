@@ -11,10 +11,13 @@ use crate::table::{Cell, Column, Format, RowKind, Table, TableRow};
 const STATISTIC: &str = "ICC(2,1): two-way random effects, absolute agreement, one rater. SEM: standard error of measurement \
                          of one rater. Targets: objects of sessions that every rater of the row has a fused size of.";
 
+/// Sizes by session and object, then rater.
+type ByTarget<'a> = BTreeMap<(&'a str, &'a str), BTreeMap<&'a str, f64>>;
+
 /// Agreement of raters by quantity and method, from fused sizes.
 #[must_use]
 pub fn rater_agreement(results: &Results) -> Table {
-    let mut ratings: BTreeMap<(Quantity, Method), BTreeMap<(&str, &str), BTreeMap<&str, f64>>> = BTreeMap::new();
+    let mut ratings: BTreeMap<(Quantity, Method), ByTarget<'_>> = BTreeMap::new();
     for row in results.rows.iter().filter(|row| row.level == Level::Fused) {
         let Some(size_mm) = row.predicted_mm else { continue };
         let targets = ratings.entry((row.quantity, row.method)).or_default();
@@ -44,11 +47,7 @@ pub fn rater_agreement(results: &Results) -> Table {
 
 /// The raters who rated most targets, and the targets that all of them rated: those who marked one session only would leave
 /// nothing in common.
-fn table_row(
-    quantity: Quantity,
-    method: Method,
-    targets: &BTreeMap<(&str, &str), BTreeMap<&str, f64>>,
-) -> Option<TableRow> {
+fn table_row(quantity: Quantity, method: Method, targets: &ByTarget<'_>) -> Option<TableRow> {
     let mut rated: BTreeMap<BTreeSet<&str>, Vec<Vec<f64>>> = BTreeMap::new();
     for by_rater in targets.values().filter(|by_rater| by_rater.len() > 1) {
         let raters: BTreeSet<&str> = by_rater.keys().copied().collect();

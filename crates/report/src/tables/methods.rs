@@ -19,10 +19,13 @@ const SEED: u64 = 21;
 /// What both methods measured: session, image, object, rater.
 type Place<'a> = (&'a str, Option<&'a str>, &'a str, &'a str);
 
+/// Errors by place, then method.
+type ByPlace<'a> = BTreeMap<Place<'a>, BTreeMap<Method, f64>>;
+
 /// Every pair of methods, by level, kind and quantity.
 #[must_use]
 pub fn methods(results: &Results) -> Table {
-    let mut errors: BTreeMap<(Level, Kind, Quantity), BTreeMap<Place<'_>, BTreeMap<Method, f64>>> = BTreeMap::new();
+    let mut errors: BTreeMap<(Level, Kind, Quantity), ByPlace<'_>> = BTreeMap::new();
     for row in &results.rows {
         let Some(error) = row_error_pct(row) else { continue };
         let places = errors.entry((row.level, row.kind, row.quantity)).or_default();
@@ -61,12 +64,7 @@ fn place(row: &ResultRow) -> Place<'_> {
     (&row.session, row.image.as_deref(), &row.object, &row.rater)
 }
 
-fn table_row(
-    key: [&str; 5],
-    places: &BTreeMap<Place<'_>, BTreeMap<Method, f64>>,
-    first: Method,
-    second: Method,
-) -> Option<TableRow> {
+fn table_row(key: [&str; 5], places: &ByPlace<'_>, first: Method, second: Method) -> Option<TableRow> {
     let mut clusters: BTreeMap<&str, Vec<(f64, f64)>> = BTreeMap::new();
     for ((_, _, object, _), by_method) in places {
         if let (Some(a), Some(b)) = (by_method.get(&first), by_method.get(&second)) {
