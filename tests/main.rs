@@ -12,6 +12,7 @@ mod flow;
 mod inspect;
 mod layers;
 mod measure;
+mod methods;
 mod project;
 mod published_bench;
 mod real;

@@ -1,6 +1,7 @@
 //! `calibrate`: what a bench with known sizes tells of a device, and its use in a run.
 
 mod apply;
+mod entries;
 mod file;
 
 use std::num::NonZeroUsize;
@@ -17,10 +18,9 @@ use crate::study::{RangeCone, Study, StudySpec};
 use crate::survey::{Survey, SurveyError, SurveyOptions};
 
 pub(crate) use apply::{corrected_view, inputs_after, scaled_paper};
-pub use file::{
-    CalibrationFile, CalibrationFileError, EmpiricalEntry, HeldOutEntry, PhysicalEntry, ProtractorEntry, RefusedEntry,
-};
-use file::{empirical_entry, physical_entry};
+pub use entries::{EmpiricalEntry, HeldOutEntry, PhysicalEntry, ProtractorEntry, RefusedEntry};
+use entries::{empirical_entry, physical_entry};
+pub use file::{CALIBRATION_SCHEMA_VERSION, CalibrationFile, CalibrationFileError};
 
 /// What one session of a bench tells.
 #[derive(Debug, Clone, Default, PartialEq)]
