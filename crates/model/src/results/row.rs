@@ -146,6 +146,8 @@ schema! {
         sizes: u32 = "number of sizes measured on the image, over raters and methods",
         range_distinct: u32 = "readings of the range sensor behind range_samples: values that it held over several records count once",
         flags: String = "codes of what to know about the image's signals, joined by commas (docs/ledger.md); empty when there is nothing",
+        plate_sigma_mm: Option<f64> = "of a selected image: standard uncertainty that a plate of 200 mm would have, marked by its rim where the camera looks, penalised for motion and unsteady range (docs/uncertainty.md)",
+        rank: Option<u32> = "rank of a selected image of its session by plate_sigma_mm, 1 being the surest: the ones to mark first",
     }
 }
 
@@ -175,6 +177,8 @@ impl FrameRow {
             sizes: 0,
             range_distinct: 0,
             flags: String::new(),
+            plate_sigma_mm: None,
+            rank: None,
         }
     }
 }

@@ -7,6 +7,7 @@ use model::{FrameReason, FrameRow, Method, ResultRow};
 
 use super::Session;
 use super::marks::SessionMarks;
+use super::surest::Surest;
 use crate::study::{SessionDir, Study};
 
 /// One row for every image of the session: those with data by time, then the dropped ones by file.
@@ -17,7 +18,10 @@ pub(super) fn ledger(session: &Session<'_>, marks: &SessionMarks, results: &[Res
     for file in counted.filter_map(|row| row.image.as_deref()) {
         *sizes.entry(file).or_default() += 1;
     }
-    let with_data = session.frames.iter().map(|frame| FrameRow {
+    let surest = Surest::of(session);
+    let with_data = session.frames.iter().enumerate().map(|(number, frame)| FrameRow {
+        plate_sigma_mm: surest.sigma_mm(number),
+        rank: surest.rank(number),
         time_utc: Some(frame.image.time),
         reason: frame.signals.reason,
         bytes: u32::try_from(frame.image.bytes).unwrap_or(u32::MAX),

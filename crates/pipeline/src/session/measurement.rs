@@ -86,7 +86,7 @@ fn order(row: &ResultRow) -> impl Ord + '_ {
 }
 
 /// Uncertainties of one image: the study's, with the noise that its own signals show.
-fn inputs_of(study: &Study, frame: &Frame) -> InputSigma {
+pub(super) fn inputs_of(study: &Study, frame: &Frame) -> InputSigma {
     let signals = &frame.signals;
     let readings = f64::from(signals.range_distinct.max(1));
     let range_error_mm = signals.range_spread_mm.unwrap_or_default() / readings.sqrt();
@@ -96,7 +96,7 @@ fn inputs_of(study: &Study, frame: &Frame) -> InputSigma {
 
 /// Doubts about an image that its uncertainties do not hold: motion near the threshold, readings of the range that scatter
 /// by more than the sensor's accuracy, and flagged signals (docs/uncertainty.md).
-fn penalty_of(study: &Study, frame: &Frame) -> f64 {
+pub(super) fn penalty_of(study: &Study, frame: &Frame) -> f64 {
     let signals = &frame.signals;
     let motion = signals.stillness_mg.unwrap_or_default() / study.spec.signals.stillness_max_mg;
     let range_mm = signals.range_mm.unwrap_or(f64::INFINITY);

@@ -9,6 +9,7 @@ mod measurement;
 mod problems;
 mod read;
 mod row;
+mod surest;
 #[cfg(test)]
 mod tests;
 

@@ -120,3 +120,19 @@ fn only_what_was_asked_for_is_given() {
     assert!(!output.results.is_empty() && output.results.iter().all(|row| row.method == Method::Best));
     assert!(output.results.iter().all(|row| row.method_used.is_some_and(|used| used != Method::Best)));
 }
+
+/// Ranks need no marks, and the rank says which image is the surest.
+#[test]
+fn selected_images_are_ranked_before_they_are_marked() {
+    let output = run(|spec| spec.select.target_pitch_deg = 38.0);
+    let mut selected: Vec<_> =
+        output.frames.iter().filter(|frame| frame.reason == model::FrameReason::Selected).collect();
+    assert!(selected.len() > 3);
+    selected.sort_by_key(|frame| frame.rank);
+    let ranks: Vec<_> = selected.iter().map(|frame| frame.rank.unwrap() as usize).collect();
+    assert_eq!(ranks, (1..=selected.len()).collect::<Vec<_>>());
+    assert!(selected.windows(2).all(|pair| pair[0].plate_sigma_mm <= pair[1].plate_sigma_mm));
+    assert!(selected[0].plate_sigma_mm.unwrap() > 6.0, "3 % of range alone are 6 mm");
+    let others = output.frames.iter().filter(|frame| frame.reason != model::FrameReason::Selected);
+    assert!(others.into_iter().all(|frame| frame.rank.is_none()));
+}
