@@ -11,7 +11,7 @@ use crate::logging::LogFormat;
 /// Measures plates and bowls in recordings of a camera worn on eyeglasses.
 ///
 /// Exit codes: 0 all well, 1 failed, 2 usage or configuration, 3 finished but some data was lost (the messages say which
-/// and why).
+/// and why), 130 and 143 stopped by SIGINT and SIGTERM.
 #[derive(Debug, Parser)]
 #[command(name = "aim-batch", version, propagate_version = true)]
 pub struct Args {
@@ -24,7 +24,7 @@ pub struct Args {
     /// Form of the log on stderr
     #[arg(long, value_enum, default_value_t = LogFormat::Text, global = true, env = "AIM_BATCH_LOG_FORMAT", help_heading = "Messages")]
     pub log_format: LogFormat,
-    /// No progress bars
+    /// No progress: no bars on a terminal, no lines elsewhere
     #[arg(short, long, global = true, help_heading = "Messages")]
     pub quiet: bool,
 }
@@ -35,6 +35,9 @@ pub enum Command {
     /// The main job: ingest what is new, select, measure, write results, print tables
     #[command(allow_negative_numbers = true)]
     Run(RunArgs),
+    /// What a run has done, and what it would do
+    #[command(allow_negative_numbers = true)]
+    Status(StatusArgs),
     /// Before a run: everything that would fail or be dropped, with remedies
     #[command(allow_negative_numbers = true)]
     Check(CheckArgs),
@@ -61,25 +64,27 @@ pub enum Command {
 pub struct RunArgs {
     /// Folder of the study (docs/study.md)
     pub study: PathBuf,
-    /// File for the sizes, X.parquet; the ledger of images is written beside it as X.frames.parquet (frames.parquet for
-    /// results.parquet)
-    #[arg(short, long, env = "AIM_BATCH_OUT", default_value = "results.parquet")]
-    pub out: PathBuf,
-    /// Folder for what can be made anew (one MCAP file per session), and may be deleted; default: X.work beside the output
-    #[arg(long, env = "AIM_BATCH_WORK")]
-    pub work: Option<PathBuf>,
-    /// Sessions at a time; default: the cores that this process may use
+    /// Where results go, and what is kept between runs
+    #[command(flatten)]
+    pub place: PlaceArgs,
+    /// Sessions at a time; default: the cores that this process may use (affinity, control group, SLURM_CPUS_PER_TASK)
     #[arg(short, long, env = "AIM_BATCH_JOBS")]
     pub jobs: Option<NonZeroUsize>,
-    /// Ingest all cards again, changed or not
+    /// Bound of all pictures in memory at once, such as 512M or 2G; one is always let through
+    #[arg(long, env = "AIM_BATCH_MEMORY", value_name = "SIZE", default_value = "256M", value_parser = bytes)]
+    pub memory: u64,
+    /// Do everything again, changed or not
     #[arg(long)]
     pub force: bool,
+    /// Stop at the first session that fails; what was done is kept, and no results are written
+    #[arg(long)]
+    pub fail_fast: bool,
+    /// Delete from the work folder what belongs to sessions that the study no longer has
+    #[arg(long)]
+    pub prune: bool,
     /// Also write the tables to this folder (CSV, Markdown, LaTeX)
     #[arg(long, env = "AIM_BATCH_REPORT")]
     pub report: Option<PathBuf>,
-    /// Corrections that aim-batch calibrate has learned for the device (docs/calibration.md)
-    #[arg(long, value_name = "FILE.toml", env = "AIM_BATCH_CALIBRATION")]
-    pub calibration: Option<PathBuf>,
     /// Settings in place of study.toml's
     #[command(flatten)]
     pub settings: SettingsArgs,
@@ -89,6 +94,62 @@ pub struct RunArgs {
     /// Largest difference allowed by --expect: percentage points of an error, per cent of a size
     #[arg(long, value_name = "PCT", default_value_t = 0.15, requires = "expect")]
     pub tolerance: f64,
+}
+
+/// Where results go.
+#[derive(Debug, clap::Args)]
+pub struct PlaceArgs {
+    /// File for the sizes, X.parquet; beside it are written the ledger of images, X.frames.parquet, and where all came from,
+    /// X.run.json (frames.parquet and run.json for results.parquet)
+    #[arg(short, long, env = "AIM_BATCH_OUT", default_value = "results.parquet")]
+    pub out: PathBuf,
+    /// Folder for what can be made anew (recordings as MCAP files, and the state of every session), and may be deleted;
+    /// default: X.work beside the output
+    #[arg(long, env = "AIM_BATCH_WORK")]
+    pub work: Option<PathBuf>,
+}
+
+impl PlaceArgs {
+    /// The work folder.
+    pub fn work_dir(&self) -> PathBuf {
+        self.work.clone().unwrap_or_else(|| self.out.with_extension("work"))
+    }
+}
+
+/// A size in bytes, with K, M, G or T for powers of 1024.
+fn bytes(text: &str) -> Result<u64, String> {
+    let text = text.trim();
+    let digits = text.trim_end_matches(|c: char| !c.is_ascii_digit());
+    let power = match text[digits.len()..].trim().to_ascii_uppercase().as_str() {
+        "" | "B" => 0,
+        "K" | "KB" | "KIB" => 1,
+        "M" | "MB" | "MIB" => 2,
+        "G" | "GB" | "GIB" => 3,
+        "T" | "TB" | "TIB" => 4,
+        _ => return Err("expected a number of bytes, or one with K, M, G or T, such as 512M".to_owned()),
+    };
+    let number: u64 = digits.parse().map_err(|_| "expected a whole number, such as 512M".to_owned())?;
+    let bytes = number.checked_mul(1024_u64.pow(power)).filter(|bytes| *bytes > 0);
+    bytes.ok_or_else(|| "expected between 1 and 16 million T".to_owned())
+}
+
+/// `status`.
+#[derive(Debug, clap::Args)]
+pub struct StatusArgs {
+    /// Folder of the study (docs/study.md)
+    pub study: PathBuf,
+    /// Where results go, and what is kept between runs
+    #[command(flatten)]
+    pub place: PlaceArgs,
+    /// List every session, also those of which nothing is to be done and nothing was lost
+    #[arg(long)]
+    pub all: bool,
+    /// JSON on stdout (docs/runs.md)
+    #[arg(long)]
+    pub json: bool,
+    /// Settings in place of study.toml's
+    #[command(flatten)]
+    pub settings: SettingsArgs,
 }
 
 /// Settings that win over study.toml.
@@ -103,6 +164,9 @@ pub struct SettingsArgs {
     /// Half width of the window around it, in degrees; default: study.toml's
     #[arg(long, env = "AIM_BATCH_PITCH_TOLERANCE")]
     pub pitch_tolerance: Option<f64>,
+    /// Corrections that aim-batch calibrate has learned for the device (docs/calibration.md)
+    #[arg(long, value_name = "FILE.toml", env = "AIM_BATCH_CALIBRATION")]
+    pub calibration: Option<PathBuf>,
 }
 
 /// `check`.
@@ -256,9 +320,37 @@ pub struct SimulateArgs {
     /// Seed of all randomness
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Everything but the pictures
+    /// Everything but the pictures (published-bench)
     #[arg(long)]
     pub no_pictures: bool,
+    /// How large it is
+    #[command(flatten)]
+    pub large: LargeArgs,
+}
+
+/// Options of the preset `large`, and of no other.
+#[derive(Debug, Default, PartialEq, clap::Args)]
+#[command(next_help_heading = "Preset large")]
+pub struct LargeArgs {
+    /// Sessions; default: 300
+    #[arg(long, value_name = "N")]
+    pub sessions: Option<u32>,
+    /// Images of each session; default: 24
+    #[arg(long, value_name = "N")]
+    pub images: Option<u32>,
+    /// Size of the pictures; default: 320x240
+    #[arg(long, value_name = "WxH", value_parser = parse_size_px)]
+    pub image_size: Option<[u32; 2]>,
+    /// Per cent of the sessions that are damaged, each in another way; default: 0
+    #[arg(long, value_name = "PCT")]
+    pub damage: Option<f64>,
+}
+
+/// `320x240`.
+fn parse_size_px(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.parse::<u32>().ok();
+    let size = text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
+    size.ok_or_else(|| "expected width and height in pixels, such as 320x240".to_owned())
 }
 
 /// Studies that can be made.
@@ -266,4 +358,21 @@ pub struct SimulateArgs {
 pub enum Preset {
     /// The paper's bench and worn sessions, rebuilt from the published readings
     PublishedBench,
+    /// Many sessions with small pictures, for load tests; some of them damaged, if asked for
+    Large,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bytes;
+
+    #[test]
+    fn sizes_with_and_without_a_unit() {
+        assert_eq!(bytes("1"), Ok(1));
+        assert_eq!(bytes("512M"), Ok(512 << 20));
+        assert_eq!(bytes("2 gib"), Ok(2 << 30));
+        for wrong in ["", "M", "0", "-1", "1.5G", "2X", "99999999999T"] {
+            assert!(bytes(wrong).is_err(), "{wrong}");
+        }
+    }
 }

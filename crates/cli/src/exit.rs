@@ -1,4 +1,4 @@
-//! Exit codes: 0 all well, 1 failed, 2 usage or configuration, 3 finished with losses.
+//! Exit codes: 0 all well, 1 failed, 2 usage or configuration, 3 finished with losses, 128 + N stopped by signal N.
 
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
@@ -15,6 +15,8 @@ pub enum Outcome {
 pub enum Failure {
     /// The command line or a configuration file must be changed.
     Usage(anyhow::Error),
+    /// A signal of that number came.
+    Stopped(usize, anyhow::Error),
     /// Anything else.
     Failed(anyhow::Error),
 }
@@ -38,6 +40,7 @@ pub fn finish(outcome: Result<Outcome, Failure>) -> ExitCode {
         Ok(Outcome::Well) => ExitCode::SUCCESS,
         Ok(Outcome::WithLosses) => ExitCode::from(3),
         Err(Failure::Usage(error)) => tell(&error, 2),
+        Err(Failure::Stopped(signal, error)) => tell(&error, u8::try_from(128 + signal).unwrap_or(u8::MAX)),
         Err(Failure::Failed(error)) if is_broken_pipe(&error) => ExitCode::SUCCESS, // `aim-batch ... | head`
         Err(Failure::Failed(error)) => tell(&error, 1),
     }

@@ -31,7 +31,10 @@ pub fn start(verbose: u8, format: LogFormat, bars: &Bars) {
         _ => LevelFilter::DEBUG,
     };
     // Other libraries' events are of use to nobody who measures plates.
-    let ours = Targets::new().with_target("aim_batch", level).with_default(LevelFilter::ERROR);
+    let ours = Targets::new()
+        .with_target("aim_batch", level)
+        .with_target("aim_batch::progress", LevelFilter::INFO) // --quiet makes none
+        .with_default(LevelFilter::ERROR);
     let lines = tracing_subscriber::fmt::layer().with_writer(AboveBars(bars.clone()));
     let registry = tracing_subscriber::registry();
     match format {

@@ -7,6 +7,7 @@ mod commands;
 mod exit;
 mod logging;
 mod progress;
+mod signals;
 #[cfg(test)]
 mod tests;
 
@@ -23,6 +24,7 @@ fn main() -> ExitCode {
     let outcome = match &args.command {
         Command::Run(run) => commands::run::run(run, args.log_format, &bars),
         Command::Calibrate(calibrate) => commands::calibrate::run(calibrate, &bars),
+        Command::Status(status) => commands::status::run(status),
         Command::Check(check) => commands::check::run(check, &bars),
         Command::Inspect(inspect) => commands::inspect::run(inspect, &bars),
         Command::Ingest(ingest) => commands::ingest::run(ingest, &bars),

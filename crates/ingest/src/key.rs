@@ -8,6 +8,7 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::card::{Card, CardFile, Inputs, Patterns, open_hashing, too_large};
+use crate::fingerprint::Fingerprint;
 use crate::ingest::{IngestError, SessionSource};
 use crate::mcap_file::Keep;
 use crate::mcap_file::metadata::toml_text;
@@ -16,10 +17,11 @@ use crate::progress::{IngestProgress, NoProgress};
 use crate::read::SessionReader;
 
 /// Version of what ingest writes. A change of layout or meaning gives another number, and all sessions are ingested anew.
-pub const INGEST_VERSION: u32 = 3;
+pub const INGEST_VERSION: u32 = 4;
 
-/// SHA-256 over the session's name, the profile, the camera, the time zone, [`INGEST_VERSION`], and name and SHA-256 of
-/// every file that the profile's patterns fit. Reads all of them.
+/// SHA-256 over the session's name, the profile, the size of the camera's pictures, the time zone, [`INGEST_VERSION`], and name and SHA-256 of
+/// every file that the profile's patterns fit. Reads all of them. The camera's calibration is not in it: the file has it for
+/// those who look at pictures, and nothing else in the file depends on it.
 ///
 /// # Errors
 /// [`IngestError`] when there is no card, or the profile contradicts itself.
@@ -49,6 +51,37 @@ pub(crate) fn inputs_key_with(source: &SessionSource, progress: &dyn IngestProgr
     key_of(source, &inputs)
 }
 
+/// Looks at cards without reading them: made once for a device profile, used for every session.
+pub struct CardLook {
+    patterns: Patterns,
+    profile: String,
+}
+
+impl CardLook {
+    /// For cards of that profile.
+    ///
+    /// # Errors
+    /// [`IngestError`] when the profile contradicts itself.
+    pub fn new(profile: &Profile) -> Result<Self, IngestError> {
+        let patterns = Patterns::new(&all_patterns(profile)).map_err(IngestError::Pattern)?;
+        Ok(Self { patterns, profile: toml_text("profile", profile)? })
+    }
+
+    /// What the system says of the files that [`inputs_key`] reads, under the same settings: equal where the key is.
+    ///
+    /// # Errors
+    /// [`IngestError`] when there is no card.
+    pub fn fingerprint(&self, source: &SessionSource) -> Result<Fingerprint, IngestError> {
+        let card = source.list_card()?;
+        let mut fingerprint = Fingerprint::default();
+        fingerprint.add_text(&key_with(source, &self.profile, &Inputs::default())?);
+        for file in card.files.iter().filter(|file| self.patterns.fits(&file.name)) {
+            fingerprint.add_stamp(&file.name, &file.stamp);
+        }
+        Ok(fingerprint)
+    }
+}
+
 /// Whether `out` is an MCAP file with that key. False for anything that is not such a file.
 #[must_use]
 pub fn ingest_is_current(out: &Path, key: &str) -> bool {
@@ -68,19 +101,24 @@ pub(crate) fn key_as(keep: Keep, source: &SessionSource, inputs: &Inputs) -> Res
 struct KeyParts<'a> {
     ingest_version: u32,
     session: &'a str,
-    profile: String,
-    camera: String,
+    profile: &'a str,
+    picture_size_px: (u32, u32),
     time_zone: String,
     clock_zero_utc: Option<Timestamp>,
     inputs: &'a std::collections::BTreeMap<String, String>,
 }
 
-pub(crate) fn key_of(source: &SessionSource, inputs: &Inputs) -> Result<String, IngestError> {
+fn key_of(source: &SessionSource, inputs: &Inputs) -> Result<String, IngestError> {
+    key_with(source, &toml_text("profile", &source.profile)?, inputs)
+}
+
+/// The key, where the profile is already text.
+fn key_with(source: &SessionSource, profile: &str, inputs: &Inputs) -> Result<String, IngestError> {
     let parts = KeyParts {
         ingest_version: INGEST_VERSION,
         session: &source.session,
-        profile: toml_text("profile", &source.profile)?,
-        camera: toml_text("camera", &source.camera_spec)?,
+        profile,
+        picture_size_px: (source.camera_spec.width_px, source.camera_spec.height_px),
         time_zone: zone_name(&source.time_zone),
         clock_zero_utc: source.clock_zero_utc,
         inputs: &inputs.sha256,

@@ -4,7 +4,7 @@ use model::{FrameReason, Problem, UtcNs};
 use serde::{Deserialize, Serialize};
 
 /// An image in the MCAP file.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ImageEntry {
     /// Path relative to the card, with `/`.
     pub file: String,

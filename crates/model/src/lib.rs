@@ -71,7 +71,7 @@ pub use measure::{
 };
 pub use pose::{Pose, PoseError};
 pub use results::{FrameRow, Level, ResultRow};
-pub use sink::{ResultSink, RunMetadata};
+pub use sink::{ResultSink, RunLog, RunMetadata, SessionLog, StageLog};
 pub use source::{PerSource, SOURCES, Source, SourceCovariance};
 pub use stats::{ErrorStats, median};
 pub use status::{Problem, SessionStatus, Severity, Stage};

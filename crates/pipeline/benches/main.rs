@@ -1,6 +1,6 @@
-//! Ingest and signals against their peers, each a ratio of two programs that take turns in one run.
+//! Ingest, signals and runs against their peers, each a ratio of two programs that take turns in one run.
 //!
-//! `cargo bench -p aim-batch-pipeline`, or some of it: `-- copy packets csv week memory`. docs/performance.md says what is
+//! `cargo bench -p aim-batch-pipeline`, or some of it: `-- copy packets csv week memory jobs`. docs/performance.md says what is
 //! compared with what, and what was measured.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark fails by panicking, and prints")]
@@ -8,6 +8,7 @@
 mod against_cp;
 mod against_python;
 mod card;
+mod jobs;
 mod memory;
 mod turns;
 mod week;
@@ -18,12 +19,13 @@ fn main() {
         return memory::child(&arguments[1..]);
     }
     let is_wanted = |name: &str| arguments.is_empty() || arguments.iter().any(|argument| argument == name);
-    let parts: [(&str, fn()); 5] = [
+    let parts: [(&str, fn()); 6] = [
         ("copy", against_cp::run),
         ("packets", against_python::packets),
         ("csv", against_python::csv),
         ("week", week::run),
         ("memory", memory::run),
+        ("jobs", jobs::run_jobs),
     ];
     for (_, run) in parts.iter().filter(|(name, _)| is_wanted(name)) {
         run();

@@ -13,6 +13,8 @@
 
 pub mod calibrate;
 mod check;
+#[cfg(debug_assertions)]
+mod fault;
 mod inputs;
 pub mod inspect;
 pub mod labelme;
@@ -21,13 +23,17 @@ mod run;
 mod session;
 mod sessions;
 pub mod signals;
+mod stop;
 pub mod study;
 mod survey;
+mod work;
 
 pub use check::{Checked, check};
 pub use inspect::{inspect_file, inspect_study};
-pub use reporter::{Reporter, Silent};
-pub use run::{RunError, RunOptions, run};
-pub use session::{SessionOptions, SessionOutput, run_session};
+pub use reporter::{Reporter, Silent, Totals};
+pub use run::{Current, Halted, Ran, RunError, RunOptions, SessionState, StudyState, run, status};
+pub use sessions::default_jobs;
+pub use stop::Stop;
 pub use study::{Study, StudyError};
 pub use survey::{SurveyError, SurveyOptions};
+pub use work::{Holder, WorkError};

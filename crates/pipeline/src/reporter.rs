@@ -2,10 +2,21 @@
 
 use model::{SessionStatus, Stage};
 
+/// How much there is to do.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Totals {
+    /// All sessions.
+    pub sessions: usize,
+    /// Those for which nothing is to be done.
+    pub kept: usize,
+    /// Bytes of cards to be read, where that is known.
+    pub bytes: Option<u64>,
+}
+
 /// Told how far a run is. Called from several threads at once.
 pub trait Reporter: Sync {
-    /// The run begins: `sessions` are to be done.
-    fn begin(&self, sessions: usize);
+    /// The work begins.
+    fn begin(&self, totals: &Totals);
 
     /// A session begins a stage.
     fn stage(&self, session: &str, stage: Stage);
@@ -25,7 +36,7 @@ pub trait Reporter: Sync {
 pub struct Silent;
 
 impl Reporter for Silent {
-    fn begin(&self, _sessions: usize) {}
+    fn begin(&self, _totals: &Totals) {}
     fn stage(&self, _session: &str, _stage: Stage) {}
     fn bytes_to_read(&self, _session: &str, _bytes: u64) {}
     fn bytes_read(&self, _session: &str, _bytes: u64) {}

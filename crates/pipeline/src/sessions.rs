@@ -1,57 +1,53 @@
 //! All sessions of a study in parallel, each by itself: what goes wrong in one never stops the others.
 
 use std::any::Any;
+use std::cell::Cell;
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use model::{Problem, SessionStatus, Severity, Stage};
+use model::{Problem, Severity, Stage};
 use rayon::prelude::*;
 
-use crate::reporter::Reporter;
-use crate::session::{SessionOptions, SessionOutput, ledger_of_failed, run_session};
-use crate::study::{SessionDir, Study};
+use crate::study::SessionDir;
 
-/// What `one` makes of each session, `jobs` at a time (none: one per core that this process may use), in the order of the
-/// sessions' names.
-pub(crate) fn in_parallel<R: Send>(
-    study: &Study,
+/// How many sessions at a time, unless told: as many as cores that this process may use (its affinity, its control group's
+/// quota, and what Slurm gave it).
+#[must_use]
+pub fn default_jobs() -> NonZeroUsize {
+    let cores = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+    let of_slurm = std::env::var("SLURM_CPUS_PER_TASK").ok().and_then(|text| text.parse().ok());
+    of_slurm.map_or(cores, |given: NonZeroUsize| given.min(cores))
+}
+
+pub(crate) fn jobs_or_default(jobs: Option<NonZeroUsize>) -> NonZeroUsize {
+    jobs.unwrap_or_else(default_jobs)
+}
+
+/// What `one` makes of each item, `jobs` at a time (none: [`default_jobs`]), in the order of the items.
+pub(crate) fn in_parallel<T: Sync, R: Send>(
+    items: &[T],
     jobs: Option<NonZeroUsize>,
-    reporter: &dyn Reporter,
-    one: impl Fn(&SessionDir) -> R + Sync + Send,
+    one: impl Fn(&T) -> R + Sync + Send,
 ) -> Result<Vec<R>, rayon::ThreadPoolBuildError> {
-    let jobs = jobs.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
-    let threads = jobs.min(study.sessions.len()); // a thread without a session is of no use
+    let threads = jobs_or_default(jobs).get().min(items.len()); // a thread without a session is of no use
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1)).build()?;
-    reporter.begin(study.sessions.len());
-    Ok(pool.install(|| study.sessions.par_iter().map(one).collect()))
+    Ok(pool.install(|| items.par_iter().with_max_len(1).map(one).collect()))
 }
 
-/// Runs a session; a panic becomes its status, and the other sessions go on.
-pub(crate) fn guarded(
-    study: &Study,
+/// What `work` on a session gives; a panic becomes a problem of the stage that it was in.
+pub(crate) fn unless_panicking<R>(
     dir: &SessionDir,
-    options: &SessionOptions,
-    reporter: &dyn Reporter,
-) -> SessionOutput {
-    unless_panicking(dir, || run_session(study, dir, options, reporter)).unwrap_or_else(|problem| {
-        let problems = vec![problem];
-        let frames = ledger_of_failed(study, dir);
-        let (session, images) = (dir.name.clone(), frames.len());
-        let status = SessionStatus { session, failed: true, images, problems, ..SessionStatus::default() };
-        SessionOutput { status, frames, ..SessionOutput::default() }
-    })
+    stage: &Cell<Stage>,
+    work: impl FnOnce() -> R,
+) -> Result<R, Problem> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| internal_error(dir, stage.get(), &*panic))
 }
 
-/// What `work` on a session gives; a panic becomes a problem.
-pub(crate) fn unless_panicking<R>(dir: &SessionDir, work: impl FnOnce() -> R) -> Result<R, Problem> {
-    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| internal_error(dir, &*panic))
-}
-
-fn internal_error(dir: &SessionDir, panic: &(dyn Any + Send)) -> Problem {
+fn internal_error(dir: &SessionDir, stage: Stage, panic: &(dyn Any + Send)) -> Problem {
     let said = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
     Problem {
         severity: Severity::Loss,
-        stage: Stage::Measure,
+        stage,
         code: "internal_error".to_owned(),
         place: format!("cards/{}", dir.name),
         fact: format!("the program failed on this session: {}", said.unwrap_or("no message")),

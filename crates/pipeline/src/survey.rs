@@ -4,8 +4,11 @@ use std::num::NonZeroUsize;
 
 use tempfile::TempDir;
 
+use crate::reporter::{Reporter, Totals};
 use crate::session::SessionOptions;
-use crate::study::SessionDir;
+use crate::sessions::in_parallel;
+use crate::stop::Stop;
+use crate::study::{SessionDir, Study};
 
 /// Settings of a survey.
 #[derive(Debug, Clone)]
@@ -14,6 +17,8 @@ pub struct SurveyOptions {
     pub jobs: Option<NonZeroUsize>,
     /// Program and version, for messages.
     pub program: String,
+    /// A wish to stop.
+    pub stop: Stop,
 }
 
 /// Why a survey stopped. What concerns one session never stops it.
@@ -25,6 +30,12 @@ pub enum SurveyError {
     /// The worker threads.
     #[error("cannot start the worker threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
+    /// A signal came.
+    #[error("stopped by a signal before all sessions were looked at")]
+    Stopped {
+        /// Its number.
+        signal: usize,
+    },
 }
 
 /// The temporary folder of a survey; gone with all that is in it when this is dropped.
@@ -38,15 +49,36 @@ impl Survey {
         let folder = tempfile::Builder::new().prefix("aim-batch-survey-").tempdir()?;
         let options = SessionOptions {
             mcap_dir: folder.path().canonicalize()?,
-            force: false,
             survey: true,
             program: options.program.clone(),
+            stop: options.stop.clone(),
         };
         Ok(Self { folder, options })
     }
 
+    /// What `one` makes of each session, in the order of their names, until a signal comes.
+    pub fn each<R: Send>(
+        &self,
+        study: &Study,
+        jobs: Option<NonZeroUsize>,
+        reporter: &dyn Reporter,
+        one: impl Fn(&SessionDir) -> R + Sync + Send,
+    ) -> Result<Vec<R>, SurveyError> {
+        let stop = &self.options.stop;
+        reporter.begin(&Totals { sessions: study.sessions.len(), ..Totals::default() });
+        let found = in_parallel(&study.sessions, jobs, |dir| {
+            let found = (!stop.is_set()).then(|| one(dir));
+            self.forget(dir);
+            found
+        })?;
+        match stop.signal() {
+            Some(signal) => Err(SurveyError::Stopped { signal }),
+            None => Ok(found.into_iter().flatten().collect()),
+        }
+    }
+
     /// Removes what was written of a session, so that the folder never holds more than the sessions at work.
-    pub fn forget(&self, dir: &SessionDir) {
+    fn forget(&self, dir: &SessionDir) {
         let file = self.folder.path().join(format!("{}.mcap", dir.name));
         if let Err(error) = std::fs::remove_file(&file)
             && error.kind() != std::io::ErrorKind::NotFound

@@ -1,10 +1,8 @@
 //! Files that are whole or not there: written aside in the same folder, synced, then renamed.
 
-use std::fs::File;
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
-
-use tempfile::NamedTempFile;
 
 /// A file that could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -22,6 +20,12 @@ pub enum FileError {
         path: PathBuf,
         /// What the system said.
         source: io::Error,
+    },
+    /// Another process is writing the same file.
+    #[error("another process is writing this file; wait for it to end, or name another: {}", path.display())]
+    Busy {
+        /// The target.
+        path: PathBuf,
     },
     /// The temporary file could not be written or synced.
     #[error("cannot write; is the disk full? The earlier file, if any, is as it was: {}", path.display())]
@@ -49,41 +53,116 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
-/// A temporary file in the folder of `path`, removed if it is dropped.
-pub(crate) fn temporary_beside(path: &Path) -> Result<NamedTempFile, FileError> {
-    if path.is_dir() {
-        return Err(FileError::Folder { path: path.to_owned() });
-    }
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".aim-batch-").suffix(".tmp");
-    #[cfg(unix)]
-    {
-        // tempfile's 0600 would keep results from the rest of the lab; the umask still applies to this.
-        use std::os::unix::fs::PermissionsExt as _;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder(path)).map_err(|source| FileError::Create { path: path.to_owned(), source })
+/// A file under construction beside its target, `.NAME.aim-batch-part`. Removed when it is dropped; one that a killed process
+/// left is used again, so that none pile up. Locked meanwhile, and the system drops the lock with the process.
+pub(crate) struct Aside {
+    file: File,
+    path: PathBuf,
+    target: PathBuf,
+    is_placed: bool,
 }
 
-/// Makes the bytes of a temporary file durable.
-pub(crate) fn sync(temporary: &NamedTempFile, path: &Path) -> Result<(), FileError> {
-    temporary.as_file().sync_all().map_err(|source| FileError::Write { path: path.to_owned(), source })
+impl Aside {
+    pub(crate) fn of(target: &Path) -> Result<Self, FileError> {
+        if target.is_dir() {
+            return Err(FileError::Folder { path: target.to_owned() });
+        }
+        let name = target.file_name().unwrap_or_default().to_string_lossy();
+        let path = folder(target).join(format!(".{name}.aim-batch-part"));
+        let refuse = |source| FileError::Create { path: target.to_owned(), source };
+        let file = loop {
+            let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
+            let file = file.map_err(refuse)?;
+            match file.try_lock() {
+                Err(TryLockError::WouldBlock) => return Err(FileError::Busy { path: target.to_owned() }),
+                Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {
+                    return Err(refuse(error));
+                }
+                _ => {}
+            }
+            if is_still_at(&file, &path) {
+                break file;
+            }
+        };
+        file.set_len(0).map_err(refuse)?;
+        Ok(Self { file, path, target: target.to_owned(), is_placed: false })
+    }
+
+    pub(crate) fn file(&self) -> &File {
+        &self.file
+    }
+
+    /// Makes the bytes durable.
+    pub(crate) fn sync(&self) -> Result<(), FileError> {
+        self.file.sync_all().map_err(|source| FileError::Write { path: self.target.clone(), source })
+    }
+
+    /// Gives a synced file its name.
+    pub(crate) fn put_in_place(mut self) -> Result<(), FileError> {
+        let renamed = |source| FileError::Rename { path: self.target.clone(), source };
+        std::fs::rename(&self.path, &self.target).map_err(renamed)?;
+        self.is_placed = true;
+        // The name itself survives a power cut only once the folder is synced; only Unix opens folders.
+        #[cfg(unix)]
+        File::open(folder(&self.target)).and_then(|folder| folder.sync_all()).map_err(renamed)?;
+        Ok(())
+    }
 }
 
-/// Gives a synced temporary file its name.
-pub(crate) fn put_in_place(temporary: NamedTempFile, path: &Path) -> Result<(), FileError> {
-    let renamed = |source| FileError::Rename { path: path.to_owned(), source };
-    temporary.persist(path).map_err(|error| renamed(error.error))?;
-    // The name itself survives a power cut only once the folder is synced; only Unix opens folders.
-    #[cfg(unix)]
-    File::open(folder(path)).and_then(|folder| folder.sync_all()).map_err(renamed)?;
-    Ok(())
+impl Drop for Aside {
+    fn drop(&mut self) {
+        if !self.is_placed {
+            let _ = std::fs::remove_file(&self.path); // nothing is left to be done where it stays
+        }
+    }
+}
+
+/// Whether the file that was locked still has that name: its holder may have given it its own in between.
+#[cfg(unix)]
+fn is_still_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt as _;
+    let numbers = |metadata: std::fs::Metadata| (metadata.dev(), metadata.ino());
+    let (locked, named) = (file.metadata().map(numbers).ok(), std::fs::metadata(path).map(numbers).ok());
+    locked.is_some() && locked == named
+}
+
+#[cfg(not(unix))]
+fn is_still_at(_file: &File, _path: &Path) -> bool {
+    true // an open file cannot be renamed there
 }
 
 /// Writes a whole file aside and renames it.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    let mut temporary = temporary_beside(path)?;
-    temporary.write_all(bytes).map_err(|source| FileError::Write { path: path.to_owned(), source })?;
-    sync(&temporary, path)?;
-    put_in_place(temporary, path)
+    let aside = Aside::of(path)?;
+    aside.file().write_all(bytes).map_err(|source| FileError::Write { path: path.to_owned(), source })?;
+    aside.sync()?;
+    aside.put_in_place()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+
+    #[test]
+    fn what_a_killed_process_left_is_used_again_and_gone_in_the_end() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.csv");
+        std::fs::write(dir.path().join(".a.csv.aim-batch-part"), b"half of something longer").unwrap();
+        write(&path, b"whole").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"whole");
+        assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn two_at_a_time_are_refused_and_the_earlier_file_stays() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.csv");
+        std::fs::write(&path, b"earlier").unwrap();
+        let first = Aside::of(&path).unwrap();
+        assert!(matches!(Aside::of(&path), Err(FileError::Busy { .. })));
+        drop(first);
+        assert_eq!(std::fs::read(&path).unwrap(), b"earlier");
+        assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 1);
+    }
 }

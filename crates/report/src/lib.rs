@@ -22,7 +22,7 @@ mod write_dir;
 
 pub use atomic::FileError;
 pub use compare::{CompareError, Comparison, Difference, compare};
-pub use parquet::{ParquetSink, ReadError, Results, SinkError, frames_file, read_frames};
+pub use parquet::{ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, run_file};
 pub use render::{csv, latex, markdown, terminal, terminal_set};
 pub use table::{Align, Cell, Column, Footnote, Format, Role, RowKind, Table, TableRow};
 pub use tables::{

@@ -7,6 +7,16 @@ use model::{CameraSpecError, MeasureError, PoseError, ViewError};
 /// Why a study could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum SimulateError {
+    /// An option is out of range.
+    #[error("{option} {got}: expected {expected}")]
+    Option {
+        /// Which option.
+        option: &'static str,
+        /// What it is.
+        got: String,
+        /// What it may be.
+        expected: String,
+    },
     /// The output folder holds something already.
     #[error("{} is not empty: name a folder that does not exist yet, or an empty one", path.display())]
     NotEmpty {

@@ -6,7 +6,8 @@
 //! - [`sensors`]: the motion of a head -> packets of an accelerometer and of a range sensor;
 //! - [`study`]: the folder, its images' names, marks in LabelMe's format;
 //! - [`trial`]: sizes measured through erring sensors, without pictures: accuracy and coverage of uncertainties;
-//! - [`published`]: the preset `published-bench`, the paper's bench rebuilt from its published readings.
+//! - [`published`]: the preset `published-bench`, the paper's bench rebuilt from its published readings;
+//! - [`large`]: the preset `large`, many sessions for load tests.
 //!
 //! ```no_run
 //! use aim_batch_simulate::published::{Options, published_bench};
@@ -17,6 +18,7 @@
 #![warn(missing_docs)]
 
 mod error;
+pub mod large;
 pub mod published;
 pub mod render;
 pub mod scene;
@@ -25,4 +27,5 @@ pub mod study;
 pub mod trial;
 
 pub use error::SimulateError;
+pub use large::{LargeOptions, large};
 pub use published::{Options, Summary, published_bench};

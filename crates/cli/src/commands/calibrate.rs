@@ -7,7 +7,7 @@ use model::SessionStatus;
 use pipeline::calibrate::{self, CalibrationFile, EmpiricalEntry, HeldOutEntry, PhysicalEntry};
 use pipeline::{Study, SurveyOptions};
 
-use super::{PROGRAM, outcome, print, tell};
+use super::{PROGRAM, outcome, print, stop_on_signals, survey_failure, tell};
 use crate::args::CalibrateArgs;
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
@@ -18,8 +18,8 @@ pub fn run(args: &CalibrateArgs, bars: &Bars) -> Result<Outcome, Failure> {
         return Err(Failure::Usage(anyhow!("--out {}: expected a name that ends in .toml", args.out.display())));
     }
     let study = Study::load(&args.study, calibrate::adjust).map_err(Failure::usage)?;
-    let options = SurveyOptions { jobs: args.jobs, program: PROGRAM.to_owned() };
-    let (file, sessions) = calibrate::calibrate(&study, &options, &bars.for_run())?;
+    let options = SurveyOptions { jobs: args.jobs, program: PROGRAM.to_owned(), stop: stop_on_signals()? };
+    let (file, sessions) = calibrate::calibrate(&study, &options, &bars.for_run()).map_err(survey_failure)?;
     print(&text(&file))?;
     if file.physical.is_none() && file.empirical.is_empty() {
         return Err(Failure::Failed(anyhow!(

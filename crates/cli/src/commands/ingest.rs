@@ -23,7 +23,8 @@ pub fn run(args: &IngestArgs, bars: &Bars) -> Result<Outcome, Failure> {
         clock_zero_utc: args.clock_zero,
         program: PROGRAM.to_owned(),
     };
-    let summary = ingest_session(&source, &args.out, bars).map_err(|error| anyhow!("{error}; {}", error.remedy()))?;
+    let summary =
+        ingest_session(&source, &args.out, &bars.for_card()).map_err(|error| anyhow!("{error}; {}", error.remedy()))?;
     print(&format!(
         "{}: {} images, {} acceleration samples, {} range samples from {} files (profile {}, camera {})\n",
         args.out.display(),

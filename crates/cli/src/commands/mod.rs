@@ -11,15 +11,22 @@ pub mod report;
 pub mod run;
 mod settings;
 pub mod simulate;
+pub mod status;
 mod summary;
 mod view;
 
 use std::io::{self, Write};
 
-use crate::exit::Outcome;
+use anyhow::Context as _;
+use pipeline::{Stop, SurveyError};
+
+use crate::exit::{Failure, Outcome};
+use crate::signals;
 
 /// Program and version, for provenance.
 pub const PROGRAM: &str = concat!("aim-batch ", env!("CARGO_PKG_VERSION"));
+/// Commit that it was built from, where git knew.
+pub const COMMIT: Option<&str> = option_env!("AIM_BATCH_COMMIT");
 
 /// Writes results to stdout. A reader that has gone (`aim-batch ... | head`) does not stop what is still to be done.
 fn print(text: &str) -> io::Result<()> {
@@ -55,6 +62,21 @@ fn flow_tables(results: &::report::Results) -> impl Iterator<Item = ::report::Ta
 fn as_wide_as_the_terminal(tables: &[::report::Table]) -> String {
     let width = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
     ::report::terminal_set(tables, width)
+}
+
+/// A wish to stop that signals set, from now on.
+fn stop_on_signals() -> Result<Stop, Failure> {
+    let stop = Stop::default();
+    signals::watch(&stop).context("cannot listen for signals")?;
+    Ok(stop)
+}
+
+/// A survey's error, for the exit code.
+fn survey_failure(error: SurveyError) -> Failure {
+    match error {
+        SurveyError::Stopped { signal } => Failure::Stopped(signal, error.into()),
+        other => other.into(),
+    }
 }
 
 /// The outcome of a command that may have lost something.

@@ -1,12 +1,14 @@
 //! `run`: the main job.
 
+use std::path::PathBuf;
+
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
-use pipeline::calibrate::CalibrationFile;
-use pipeline::{RunOptions, Study};
+use pipeline::{Halted, RunError, RunOptions};
+use report::SinkError;
 
-use super::summary::tell_summary;
-use super::{PROGRAM, outcome, print, settings, tables_text, tell};
+use super::summary::{Finished, tell_summary};
+use super::{COMMIT, PROGRAM, outcome, print, settings, stop_on_signals, tables_text, tell};
 use crate::args::RunArgs;
 use crate::exit::{Failure, Outcome};
 use crate::logging::LogFormat;
@@ -15,31 +17,27 @@ use crate::progress::Bars;
 /// Runs the study, prints the tables and what was lost.
 pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Failure> {
     check(args)?;
-    let study = Study::load(&args.study, |spec| settings::apply(&args.settings, spec)).map_err(Failure::usage)?;
-    let study = match &args.calibration {
-        Some(path) => study.calibrated(CalibrationFile::read(path).map_err(Failure::usage)?),
-        None => study,
-    };
-    let frames = ::report::frames_file(&args.out);
-    let options = RunOptions {
-        jobs: args.jobs,
-        work_dir: args.work.clone().unwrap_or_else(|| args.out.with_extension("work")),
-        force: args.force,
-        program: PROGRAM.to_owned(),
-    };
-    if let Some(folder) = args.out.parent() {
+    let study = settings::load(&args.study, &args.settings)?;
+    let out = &args.place.out;
+    let frames = ::report::frames_file(out);
+    if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     }
-    let mut sink = ::report::ParquetSink::create(&args.out, &frames)?;
-    let sessions = pipeline::run(&study, &options, &bars.for_run(), &mut sink)?;
+    let options = options(args)?;
+    let mut sink = ::report::ParquetSink::create(out, &frames)?;
+    let progress = bars.for_run();
+    let ran = pipeline::run(&study, &options, &progress, &mut sink).map_err(failure)?;
+    drop((sink, progress));
 
-    let mut results = ::report::Results::read(&args.out)?;
+    let mut results = ::report::Results::read(out)?;
     results.read_flow(&frames)?;
     print(&tables_text(&results))?;
     if let Some(dir) = &args.report {
         ::report::write_dir(&results, dir)?;
     }
-    tell_summary(&sessions, &[&args.out, &frames], format)?;
+    let files = [out.clone(), frames, ::report::run_file(out)];
+    let files: Vec<PathBuf> = files.into_iter().chain(args.report.clone()).collect();
+    tell_summary(&Finished { ran: &ran, files: &files, work_dir: &options.work_dir }, format)?;
     if let Some(dir) = &args.expect {
         let comparison = ::report::compare(dir, &results, args.tolerance).map_err(Failure::usage)?;
         tell(&format!("{comparison}\n"))?;
@@ -47,17 +45,39 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
             return Err(Failure::Failed(anyhow!("the tables differ from those in {}", dir.display())));
         }
     }
-    if sessions.iter().all(|session| session.failed) {
+    if ran.sessions.iter().all(|session| session.failed) {
         return Err(Failure::Failed(anyhow!("no session could be used")));
     }
-    Ok(outcome(sessions.iter().any(SessionStatus::has_losses)))
+    Ok(outcome(ran.sessions.iter().any(SessionStatus::has_losses)))
+}
+
+fn options(args: &RunArgs) -> Result<RunOptions, Failure> {
+    Ok(RunOptions {
+        jobs: args.jobs,
+        image_memory_bytes: args.memory,
+        work_dir: args.place.work_dir(),
+        force: args.force,
+        fail_fast: args.fail_fast,
+        prune: args.prune,
+        program: PROGRAM.to_owned(),
+        commit: COMMIT.map(str::to_owned),
+        stop: stop_on_signals()?,
+    })
+}
+
+fn failure(error: RunError<SinkError>) -> Failure {
+    match error {
+        RunError::Halted(Halted::Stopped { signal, .. }) => Failure::Stopped(signal, error.into()),
+        other => other.into(),
+    }
 }
 
 /// What would otherwise fail at the end of a night.
 fn check(args: &RunArgs) -> Result<(), Failure> {
     let refuse = |fact: String| Err(Failure::Usage(anyhow!(fact)));
-    if args.out.extension().is_none_or(|extension| extension != "parquet") {
-        return refuse(format!("--out {}: expected a name that ends in .parquet", args.out.display()));
+    let out = &args.place.out;
+    if out.extension().is_none_or(|extension| extension != "parquet") {
+        return refuse(format!("--out {}: expected a name that ends in .parquet", out.display()));
     }
     if !(args.tolerance.is_finite() && args.tolerance >= 0.0) {
         return refuse(format!("--tolerance {}: expected zero or a positive number", args.tolerance));

@@ -1,17 +1,18 @@
 //! `simulate`: a study with known truth.
 
-use ::simulate::{Options, published_bench};
+use ::simulate::{LargeOptions, Options, SimulateError, Summary, large, published_bench};
+use anyhow::anyhow;
 
 use super::tell;
-use crate::args::{Preset, SimulateArgs};
+use crate::args::{LargeArgs, Preset, SimulateArgs};
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
 /// Makes the study.
 pub fn run(args: &SimulateArgs, bars: &Bars) -> Result<Outcome, Failure> {
-    let options = Options { seed: args.seed, render: !args.no_pictures };
     let summary = match args.preset {
-        Preset::PublishedBench => published_bench(&args.out, &options, &bars.counter("pictures"))?,
+        Preset::PublishedBench => make_published_bench(args, bars)?,
+        Preset::Large => make_large(args, bars)?,
     };
     tell(&format!(
         "wrote {}: {} sessions, {} images, {} files of marks\n",
@@ -21,4 +22,32 @@ pub fn run(args: &SimulateArgs, bars: &Bars) -> Result<Outcome, Failure> {
         summary.mark_files,
     ))?;
     Ok(Outcome::Well)
+}
+
+fn make_published_bench(args: &SimulateArgs, bars: &Bars) -> Result<Summary, Failure> {
+    if args.large != LargeArgs::default() {
+        let fact =
+            "--sessions, --images, --image-size and --damage belong to the preset large: published-bench is as it is";
+        return Err(Failure::Usage(anyhow!(fact)));
+    }
+    let options = Options { seed: args.seed, render: !args.no_pictures };
+    Ok(published_bench(&args.out, &options, &bars.counter("pictures"))?)
+}
+
+fn make_large(args: &SimulateArgs, bars: &Bars) -> Result<Summary, Failure> {
+    if args.no_pictures {
+        return Err(Failure::Usage(anyhow!("--no-pictures belongs to the preset published-bench")));
+    }
+    let (given, default) = (&args.large, LargeOptions::default());
+    let options = LargeOptions {
+        seed: args.seed,
+        sessions: given.sessions.unwrap_or(default.sessions),
+        images: given.images.unwrap_or(default.images),
+        size_px: given.image_size.unwrap_or(default.size_px),
+        damage_pct: given.damage.unwrap_or(default.damage_pct),
+    };
+    large(&args.out, &options, &bars.counter("sessions")).map_err(|error| match error {
+        SimulateError::Option { .. } => Failure::usage(error),
+        other => other.into(),
+    })
 }

@@ -2,25 +2,48 @@
 
 use std::fmt::Write as _;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use model::SessionStatus;
+use model::{SessionStatus, StageLog};
+use pipeline::Ran;
 
 use super::problems::{describe, kinds};
 use super::tell;
 use crate::logging::LogFormat;
 
-/// More kinds of problems than this are counted, not listed; all are in the results file.
-const KINDS_LISTED: usize = 20;
+/// More kinds of problems than this are counted, not listed: all of it fits on a screen. All are in the results file.
+const KINDS_LISTED: usize = 5;
+
+/// What is told.
+pub struct Finished<'a> {
+    pub ran: &'a Ran,
+    pub files: &'a [PathBuf],
+    pub work_dir: &'a Path,
+}
 
 /// Tells on stderr, or as an event of the log where that is JSON (each problem has been one already).
-pub fn tell_summary(sessions: &[SessionStatus], files: &[&Path], format: LogFormat) -> io::Result<()> {
+pub fn tell_summary(finished: &Finished<'_>, format: LogFormat) -> io::Result<()> {
+    let Ran { sessions, done, wrote, stages, seconds } = finished.ran;
     let count = |count: fn(&SessionStatus) -> usize| sessions.iter().map(count).sum::<usize>();
     let (failed, images) = (count(|s| usize::from(s.failed)), count(|s| s.images));
     let (with_pose, selected, sizes) = (count(|s| s.with_pose), count(|s| s.selected), count(|s| s.sizes));
     if format == LogFormat::Json {
-        let files: Vec<_> = files.iter().map(|file| file.display().to_string()).collect();
-        tracing::info!(sessions = sessions.len(), failed, images, with_pose, selected, sizes, ?files, "finished");
+        let files: Vec<_> = finished.files.iter().map(|file| file.display().to_string()).collect();
+        let sessions = sessions.len();
+        tracing::info!(
+            sessions,
+            done,
+            failed,
+            images,
+            with_pose,
+            selected,
+            sizes,
+            wrote,
+            seconds,
+            ?stages,
+            ?files,
+            "finished"
+        );
         return Ok(());
     }
     let mut text = format!(
@@ -28,10 +51,23 @@ pub fn tell_summary(sessions: &[SessionStatus], files: &[&Path], format: LogForm
         sessions.len(),
     );
     text.push_str(&problems(sessions));
-    for file in files {
-        let _ = writeln!(text, "wrote {}", file.display());
+    text.push_str(&work(finished.ran));
+    let verb = if *wrote { "wrote" } else { "nothing to do: unchanged" };
+    for file in finished.files {
+        let _ = writeln!(text, "{verb} {}", file.display());
     }
+    let _ = writeln!(text, "work folder {}", finished.work_dir.display());
     tell(&text)
+}
+
+/// Seconds by stage.
+fn work(ran: &Ran) -> String {
+    let of_stage = |stage: &StageLog| match stage.done {
+        0 => format!("{} kept", stage.stage),
+        done => format!("{} {:.1} s ({done} done, {} kept)", stage.stage, stage.seconds, stage.kept),
+    };
+    let stages: Vec<String> = ran.stages.iter().map(of_stage).collect();
+    format!("{:.1} s in all; {}\n", ran.seconds, stages.join(", "))
 }
 
 /// Problems of one kind together, those of failed sessions first.

@@ -10,7 +10,7 @@ use super::CardFile;
 use crate::progress::IngestProgress;
 
 /// In place of a hash: the file could not be read to its end.
-const UNREADABLE: &str = "unreadable";
+pub const UNREADABLE: &str = "unreadable";
 
 /// SHA-256 of every input file, by its name.
 #[derive(Debug, Clone, Default)]
@@ -77,6 +77,9 @@ impl HashingReader<'_> {
 
 impl Read for HashingReader<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> IoResult<usize> {
+        if self.progress.is_stopped() {
+            return Err(std::io::Error::other("stopped"));
+        }
         let got = self.file.read(buffer)?;
         self.hasher.update(&buffer[..got]);
         self.bytes += got as u64;

@@ -15,6 +15,7 @@ pub use patterns::{PatternError, Patterns};
 pub use walk::{Card, CardFile};
 
 pub(crate) use decoder::Layout;
+pub use hashing::UNREADABLE;
 pub(crate) use hashing::{Inputs, open_hashing};
 pub(crate) use image_file::{LARGEST_IMAGE_BYTES, Remarks, TakenImage, judge_image, read_image, too_large};
 pub(crate) use place::{Place, amount, size};

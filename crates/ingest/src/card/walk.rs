@@ -7,6 +7,7 @@ use walkdir::{DirEntry, WalkDir};
 
 use super::names::{card_name, odd_names};
 use super::{Patterns, Place};
+use crate::fingerprint::FileStamp;
 
 /// Folders that operating systems lay beside the data: what is in them is deleted, or theirs.
 const SYSTEM_FOLDERS: [&str; 6] =
@@ -22,6 +23,8 @@ pub struct CardFile {
     pub path: PathBuf,
     /// Its size.
     pub bytes: u64,
+    /// What the system said of it.
+    pub stamp: FileStamp,
 }
 
 /// The files of a card, sorted by name.
@@ -83,7 +86,10 @@ impl Card {
             return;
         }
         match entry.metadata() {
-            Ok(metadata) => self.files.push(CardFile { name, path: entry.path().to_owned(), bytes: metadata.len() }),
+            Ok(metadata) => {
+                let (path, stamp) = (entry.path().to_owned(), FileStamp::from(&metadata));
+                self.files.push(CardFile { name, path, bytes: stamp.bytes(), stamp });
+            }
             Err(error) => self.problems.push(unreadable(&error, root, place)),
         }
     }

@@ -52,8 +52,11 @@ pub enum IngestError {
     /// There is no thread to read the card with.
     #[error("cannot start a thread that reads the card: {0}")]
     Thread(std::io::Error),
+    /// The caller asked to stop.
+    #[error("stopped before the card was read to its end")]
+    Stopped,
     /// The MCAP file cannot be written.
-    #[error("cannot write {path}: {source}; check free space and permissions")]
+    #[error("cannot write {path}: {source}")]
     Write {
         /// The file.
         path: PathBuf,
@@ -69,6 +72,13 @@ pub enum IngestError {
 }
 
 impl IngestError {
+    /// Whether the reason is not the session's: the place to write to, the machine, or a wish to stop. Other sessions
+    /// would fail of it as well.
+    #[must_use]
+    pub fn is_of_all_sessions(&self) -> bool {
+        matches!(self, Self::Write { .. } | Self::Thread(_) | Self::Stopped)
+    }
+
     /// Stable code, for the status of a session.
     #[must_use]
     pub fn code(&self) -> &'static str {
@@ -78,6 +88,7 @@ impl IngestError {
             Self::Profile(_) | Self::Pattern(_) | Self::Layout(_) => "bad_profile",
             Self::Camera(_) => "bad_camera",
             Self::Thread(_) => "no_thread",
+            Self::Stopped => "stopped",
             Self::Write { .. } | Self::Metadata(_) | Self::Key(_) => "mcap_not_written",
         }
     }
@@ -92,6 +103,7 @@ impl IngestError {
             }
             Self::Profile(_) | Self::Pattern(_) | Self::Layout(_) => "correct the device profile (docs/devices.md)",
             Self::Camera(_) => "correct the camera file (docs/devices.md)",
+            Self::Stopped => "run again to go on",
             Self::Thread(_) => "give --jobs a smaller number, or raise the limit of processes",
             Self::Write { .. } | Self::Metadata(_) | Self::Key(_) => {
                 "check free space and permissions of the work folder"

@@ -12,16 +12,15 @@ pub use error::IngestError;
 
 use std::path::{Path, PathBuf};
 
-use jiff::Timestamp;
-use jiff::tz::TimeZone;
-use model::CameraSpec;
-
 use crate::card::{Card, Declared, Place};
 use crate::key;
 use crate::mcap_file::Keep;
 use crate::profile::Profile;
 use crate::progress::IngestProgress;
 use crate::summary::IngestSummary;
+use jiff::Timestamp;
+use jiff::tz::TimeZone;
+use model::CameraSpec;
 use run::Run;
 
 /// What one session is ingested from.
@@ -47,9 +46,23 @@ pub struct SessionSource {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ingested {
     /// The MCAP file was made from the same input by the same ingest; nothing was written.
-    Current,
+    Current {
+        /// Key of that input; see [`inputs_key`](crate::inputs_key).
+        key: String,
+    },
     /// The MCAP file is new.
     Fresh(Box<IngestSummary>),
+}
+
+impl Ingested {
+    /// Key of the input; see [`inputs_key`](crate::inputs_key).
+    #[must_use]
+    pub fn key(&self) -> &str {
+        match self {
+            Self::Current { key } => key,
+            Self::Fresh(summary) => &summary.key,
+        }
+    }
 }
 
 impl SessionSource {
@@ -71,8 +84,14 @@ pub fn ingest_if_changed(
     out: &Path,
     progress: &dyn IngestProgress,
 ) -> Result<Ingested, IngestError> {
-    if out.is_file() && key::ingest_is_current(out, &key::inputs_key_with(source, progress)?) {
-        return Ok(Ingested::Current);
+    if out.is_file() {
+        let key = key::inputs_key_with(source, progress)?;
+        if progress.is_stopped() {
+            return Err(IngestError::Stopped);
+        }
+        if key::ingest_is_current(out, &key) {
+            return Ok(Ingested::Current { key });
+        }
     }
     ingest_session(source, out, progress).map(|summary| Ingested::Fresh(Box::new(summary)))
 }

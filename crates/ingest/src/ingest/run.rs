@@ -128,8 +128,8 @@ impl<'a> Run<'a> {
         let mut tally = ImageTally::default();
         let progress = self.progress;
         let inputs = read_ahead(&fitting, progress, |file, bytes| {
-            let camera = &source.camera_spec;
-            match bytes.and_then(|bytes| judge_image(file, bytes, time, &source.time_zone, camera)) {
+            let judged = bytes.and_then(|bytes| judge_image(file, bytes, time, &source.time_zone, &source.camera_spec));
+            match judged {
                 Ok(TakenImage { entry, encoding, bytes, remarks }) => {
                     tally.add(&entry.file, entry.bytes, remarks);
                     self.writer.image(entry.time, encoding, bytes).map_err(|error| write_error(self.out, error))?;
@@ -151,6 +151,9 @@ impl<'a> Run<'a> {
 
     /// Writes what is known only at the end, and gives the file its name.
     pub fn finish(mut self, entries: &[ImageEntry], camera: &Camera) -> Result<IngestSummary, IngestError> {
+        if self.progress.is_stopped() {
+            return Err(IngestError::Stopped); // what was read may end anywhere
+        }
         // A session without any message still has its camera; its time then says 1970.
         let start = self.writer.first_time().unwrap_or(UtcNs(0));
         let lists = self.writer.image_list(entries).and_then(|()| self.writer.calibration(camera, start));

@@ -5,6 +5,7 @@ pub(crate) mod messages;
 pub(crate) mod metadata;
 mod writer;
 
+pub use writer::is_partial;
 pub(crate) use writer::{Keep, SessionWriter, WriteError};
 
 /// Topics.

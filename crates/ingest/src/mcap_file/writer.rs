@@ -1,6 +1,7 @@
 //! Writes the MCAP file of a session under a temporary name, then renames it.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
@@ -21,6 +22,16 @@ use crate::timeline::{Block, Times};
 /// Fixed, so that equal input gives equal bytes whatever the version of the library.
 const LIBRARY: &str = "aim-batch-ingest";
 
+const PARTIAL_PREFIX: &str = ".ingest-";
+const PARTIAL_SUFFIX: &str = ".partial";
+
+/// Whether a file of that name is one that ingest writes before it gives it its name. Where no ingest is at work, it was
+/// left by one that was killed.
+#[must_use]
+pub fn is_partial(name: &OsStr) -> bool {
+    name.to_str().is_some_and(|name| name.starts_with(PARTIAL_PREFIX) && name.ends_with(PARTIAL_SUFFIX))
+}
+
 /// Why the MCAP file cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
@@ -29,10 +40,20 @@ pub enum WriteError {
     Io(#[from] std::io::Error),
     /// The MCAP library refuses.
     #[error(transparent)]
-    Mcap(#[from] McapError),
+    Mcap(McapError),
     /// A message has no schema: a defect of the program.
     #[error("the message type of {0} has no schema")]
     NoSchema(String),
+}
+
+impl From<McapError> for WriteError {
+    /// The library's own words do not say what the system said.
+    fn from(error: McapError) -> Self {
+        match error {
+            McapError::Io(error) => Self::Io(error),
+            other => Self::Mcap(other),
+        }
+    }
 }
 
 /// What becomes of images.
@@ -62,7 +83,7 @@ impl SessionWriter {
         let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         std::fs::create_dir_all(folder)?;
         let mut builder = tempfile::Builder::new();
-        builder.prefix(".ingest-").suffix(".partial");
+        builder.prefix(PARTIAL_PREFIX).suffix(PARTIAL_SUFFIX);
         #[cfg(unix)]
         {
             // A temporary file is its owner's alone; the MCAP file has the permissions of any new file.

@@ -33,6 +33,8 @@ pub struct PacketSamples<R> {
     step_ns: Option<i64>,
     /// Until where in the file the search for the next packet has been in vain, so that no byte is searched twice.
     barren_until: Cell<u64>,
+    /// Where in the file the first packet begins that bad ones lead to; 0 where none has been found.
+    begins_at: Cell<u64>,
     damage: Damage,
     end: Option<Fault>,
 }
@@ -61,6 +63,7 @@ impl<R: Read> PacketSamples<R> {
             last_ns: None,
             step_ns: None,
             barren_until: Cell::new(0),
+            begins_at: Cell::new(0),
             damage: Damage::default(),
             end: None,
         }
@@ -165,34 +168,57 @@ impl<R: Read> PacketSamples<R> {
         self.step_ns.map_or(FOLLOWS_WITHIN_NS, |step| step.saturating_mul(SEARCH_STEPS).min(FOLLOWS_WITHIN_NS))
     }
 
-    /// Where in `bytes` a packet begins, at `from` or later: its stamp and the next one's follow on the last one believed.
-    fn find_packet(&self, from: usize, last_ns: Option<i64>) -> Option<usize> {
-        let size = self.parser.packet_bytes();
+    /// Whether a packet begins at that place in `bytes`: its stamp and the next one's follow on the last one believed.
+    fn is_packet(&self, at: usize, last_ns: Option<i64>) -> bool {
+        let following = at + self.parser.packet_bytes();
+        let follows_last = |ns: &i64| {
+            last_ns.is_none_or(|last| (0..=self.search_reach_ns()).contains(&self.parser.later_ns(*ns, last)))
+        };
+        let Some(ns) = self.stamp_at(at).filter(follows_last) else { return false };
         let steps_ns = self.step_ns.map_or(1..=FOLLOWS_WITHIN_NS, |step| {
             let part = step / STEP_PART;
             step - part..=step.saturating_add(part)
         });
-        let is_packet = |at: usize| {
-            let follows_last = |ns: &i64| {
-                last_ns.is_none_or(|last| (0..=self.search_reach_ns()).contains(&self.parser.later_ns(*ns, last)))
-            };
-            let Some(ns) = self.stamp_at(at).filter(follows_last) else { return false };
-            let next = self.stamp_at(at + size);
-            next.is_some_and(|next| steps_ns.contains(&self.parser.later_ns(next, ns))) || at + size == self.bytes.len()
-        };
-        let barren = usize::try_from(self.barren_until.get().saturating_sub(self.offset)).unwrap_or(usize::MAX);
+        let next = self.stamp_at(following);
+        next.is_some_and(|next| steps_ns.contains(&self.parser.later_ns(next, ns))) || following == self.bytes.len()
+    }
+
+    /// Where in `bytes` a packet begins, at `from` or later.
+    fn find_packet(&self, from: usize, last_ns: Option<i64>) -> Option<usize> {
+        let size = self.parser.packet_bytes();
+        let barren = self.barren();
         let end = (self.bytes.len() + 1).saturating_sub(if self.at_end { size } else { 2 * size });
-        let found = (from.max(barren)..end).find(|at| is_packet(*at));
+        let found = (from.max(barren)..end).find(|at| self.is_packet(*at, last_ns));
         if found.is_none() {
             self.barren_until.set(self.barren_until.get().max(self.offset + end as u64));
         }
         found
     }
 
+    /// Until where in `bytes` the search has been in vain.
+    fn barren(&self) -> usize {
+        usize::try_from(self.barren_until.get().saturating_sub(self.offset)).unwrap_or(usize::MAX)
+    }
+
+    /// Whether the file has had no packet yet, and whole packets further on lead to one. Without a stamp to go by, a search
+    /// byte by byte would first find what begins some bytes before a packet: the head of a number that rises also rises.
+    fn begins_with_bad_packets(&self) -> bool {
+        let (following, size) = (self.following(), self.parser.packet_bytes());
+        if self.last_ns.is_some() || self.begins_at.get() >= self.offset + following as u64 {
+            return self.last_ns.is_none();
+        }
+        let barren = self.barren().saturating_sub(following).checked_next_multiple_of(size).unwrap_or(usize::MAX);
+        let from = following.saturating_add(barren);
+        let found = (from..self.bytes.len()).step_by(size).find(|at| self.is_packet(*at, None));
+        self.begins_at.set(found.map_or(0, |at| self.offset + at as u64));
+        found.is_some()
+    }
+
     fn pass_bad(&mut self, stamp: String) {
         let size = self.parser.packet_bytes();
-        if let Some(found) =
-            self.find_packet(self.next + 1, self.last_ns).filter(|found| found % size != self.next % size)
+        if !self.begins_with_bad_packets()
+            && let Some(found) =
+                self.find_packet(self.next + 1, self.last_ns).filter(|found| found % size != self.next % size)
         {
             self.skip_to(found);
             return;

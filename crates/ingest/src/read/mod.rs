@@ -42,7 +42,7 @@ pub struct SessionMetadata {
     pub profile: Profile,
     /// Camera pitch minus sensor pitch as the profile declares it, degrees.
     pub mount_pitch_deg: f64,
-    /// Camera.
+    /// Camera as it was when the card was ingested.
     pub camera: CameraSpec,
     /// SHA-256 of every input file, by its path relative to the card; `unreadable` where it could not be read.
     pub inputs_sha256: BTreeMap<String, String>,

@@ -189,3 +189,54 @@ fn where_bytes_are_inserted_the_next_packet_is_found() {
     assert_eq!(seconds, [0, 2, 3, 4, 5], "whether the second packet is whole cannot be told");
     assert!(matches!(faults[..], [Fault::LostAlignment { bytes: 52, .. }]), "{faults:?}");
 }
+
+/// A file that begins with garbage must not be read from a place a few bytes before its packets, where the end of the
+/// garbage and the beginning of a stamp make numbers that rise as stamps do (1770062536 s read 3 bytes early are 4608 s).
+#[test]
+fn garbage_at_the_beginning_of_a_file_does_not_shift_the_packets_behind_it() {
+    let layout = PacketLayout {
+        header: vec![field("stamp", Scalar::F64)],
+        samples: 20,
+        ..layout(SampleOrder::ChannelMajor, Endian::Little)
+    };
+    let size = 8 + 4 * 20 * 2;
+    for (hours, bad) in (0..400_u32).map(|i| (6 * i, 1 + i as usize % 12)) {
+        let start_s = 1_767_600_000.0 + 3600.0 * f64::from(hours);
+        let stamps_s: Vec<f64> = (0..20).map(|i| start_s + 8.0 * f64::from(i)).collect();
+        let one = |stamp_s: &f64| stamp_s.to_le_bytes().into_iter().chain([0xb3; 4 * 20 * 2]);
+        let mut bytes: Vec<u8> = stamps_s.iter().flat_map(one).collect();
+        bytes[..bad * size].fill(0xb3);
+        let mut packets = PacketSamples::new(bytes.as_slice(), parser(&layout));
+        let blocks = timed(all(&mut packets), 128.0);
+        let read_ns: Vec<i64> = blocks.iter().map(|block| block.times.first().0).collect();
+        let expected_ns: Vec<i64> = stamps_s[bad..].iter().map(|s| *s as i64 * 1_000_000_000).collect();
+        assert_eq!(read_ns, expected_ns, "{bad} bad packets from {start_s} s");
+        let faults = packets.finish().0;
+        assert!(matches!(&faults[..], [Fault::BadStamp { packets, .. }] if *packets == bad as u64), "{faults:?}");
+    }
+}
+
+/// Records of 9 bytes, of which a buffer holds many thousands: what was searched once is not searched again.
+#[test]
+fn a_long_file_of_garbage_takes_no_longer_than_it_is() {
+    let layout = PacketLayout {
+        header: vec![field("stamp", Scalar::F64)],
+        sample_type: Scalar::I8,
+        channels: vec!["range".to_owned()],
+        samples: 1,
+        ..layout(SampleOrder::ChannelMajor, Endian::Little)
+    };
+    let parser = PacketParser::new(&layout, &[], Converter::Range { mm_per_count: 1.0 }).unwrap();
+    let record = |i: u32| (STAMP_S + f64::from(i)).to_le_bytes().into_iter().chain([7]);
+    let records: Vec<u8> = (0..1000).flat_map(record).collect();
+    let begun = std::time::Instant::now();
+    for garbage in [9 * 20_000, 9 * 400_000] {
+        let bytes = [vec![0xb3; garbage], records.clone()].concat();
+        let mut packets = PacketSamples::new(bytes.as_slice(), parser.clone());
+        assert_eq!(all(&mut packets).len(), 1000);
+        let faults = packets.finish().0;
+        let lost: u64 = faults.iter().map(Fault::lost_bytes).sum();
+        assert_eq!(lost, garbage as u64, "{faults:?}");
+    }
+    assert!(begun.elapsed().as_secs() < 20, "{:?}", begun.elapsed());
+}

@@ -141,7 +141,9 @@ fn a_second_run_ingests_only_what_has_changed() {
     study.write("IMAGES/20250601T120000.000Z.jpg", &jpeg(32, 24, 201));
     assert!(fresh(&study), "a changed image");
     study.source.camera_spec.principal_px = [15.0, 12.0];
-    assert!(fresh(&study), "a changed camera");
+    assert!(!fresh(&study), "another calibration, on which no sample and no picture depends");
+    study.source.camera_spec.width_px = 33;
+    assert!(fresh(&study), "pictures of another size are expected");
     study.source.time_zone = jiff::tz::TimeZone::get("America/Chicago").unwrap();
     assert!(fresh(&study), "another time zone");
     std::fs::write(study.out(), b"not an MCAP file").unwrap();

@@ -1,5 +1,7 @@
 //! The columns.
 
+use serde::{Deserialize, Serialize};
+
 use super::cell::{Cell, CellError, ColumnType, Value};
 use super::level::Level;
 use crate::container::{Kind, Method, Quantity, Shape};
@@ -42,7 +44,7 @@ pub trait Row: Sized {
 macro_rules! schema {
     ($(#[$outer:meta])* $name:ident, $columns:ident { $($field:ident : $type:ty = $meaning:literal,)+ }) => {
         $(#[$outer])*
-        #[derive(Debug, Clone, PartialEq)]
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
         pub struct $name { $(#[doc = $meaning] pub $field: $type,)+ }
 
         #[doc = concat!("The columns of [`", stringify!($name), "`].")]

@@ -4,16 +4,16 @@ mod apply;
 mod entries;
 mod file;
 
-use std::num::NonZeroUsize;
+use std::cell::Cell;
 
 use model::calibrate::empirical::{self, Empirical, Row};
 use model::calibrate::physical::{self, BenchSize, Physical};
 use model::calibrate::protractor::protractor;
-use model::{InputSigma, Kind, LEARNED, Level, Method, Quantity, ResultRow, SessionStatus, Source};
+use model::{InputSigma, Kind, LEARNED, Level, Method, Quantity, ResultRow, SessionStatus, Source, Stage};
 
 use crate::reporter::Reporter;
-use crate::session::SessionOutput;
-use crate::sessions::{guarded, in_parallel};
+use crate::session::{SessionOutput, failed, run_session};
+use crate::sessions::unless_panicking;
 use crate::study::{RangeCone, Study, StudySpec};
 use crate::survey::{Survey, SurveyError, SurveyOptions};
 
@@ -51,11 +51,12 @@ pub fn calibrate(
     options: &SurveyOptions,
     reporter: &dyn Reporter,
 ) -> Result<(CalibrationFile, Vec<SessionStatus>), SurveyError> {
-    let jobs: Option<NonZeroUsize> = options.jobs;
+    let study = &Study { is_bench: true, ..study.clone() };
     let survey = Survey::new(options)?;
-    let outputs = in_parallel(study, jobs, reporter, |dir| {
-        let output = guarded(study, dir, &survey.options, reporter);
-        survey.forget(dir);
+    let outputs = survey.each(study, options.jobs, reporter, |dir| {
+        let road = || run_session(study, dir, &survey.options, reporter);
+        let output = unless_panicking(dir, &Cell::new(Stage::Study), road);
+        let output = output.unwrap_or_else(|problem| failed(study, dir, problem));
         reporter.done(&output.status);
         output
     })?;

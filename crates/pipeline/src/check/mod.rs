@@ -2,13 +2,14 @@
 
 mod sizes;
 
+use std::cell::Cell;
 use std::collections::BTreeSet;
 
-use model::{Problem, SessionStatus, StudyFlow};
+use model::{Problem, SessionStatus, Stage, StudyFlow};
 
 use crate::reporter::Reporter;
-use crate::session::SessionOutput;
-use crate::sessions::{guarded, in_parallel};
+use crate::session::{SessionOutput, failed, run_session};
+use crate::sessions::unless_panicking;
 use crate::study::Study;
 use crate::survey::{Survey, SurveyError, SurveyOptions};
 use sizes::Measured;
@@ -32,9 +33,10 @@ pub struct Checked {
 /// [`SurveyError`] for what concerns the check as a whole.
 pub fn check(study: &Study, options: &SurveyOptions, reporter: &dyn Reporter) -> Result<Checked, SurveyError> {
     let survey = Survey::new(options)?;
-    let parts = in_parallel(study, options.jobs, reporter, |dir| {
-        let output = guarded(study, dir, &survey.options, reporter);
-        survey.forget(dir);
+    let parts = survey.each(study, options.jobs, reporter, |dir| {
+        let road = || run_session(study, dir, &survey.options, reporter);
+        let output = unless_panicking(dir, &Cell::new(Stage::Study), road);
+        let output = output.unwrap_or_else(|problem| failed(study, dir, problem));
         reporter.done(&output.status);
         Part::of(output)
     })?;

@@ -11,14 +11,15 @@ mod images;
 mod local_time;
 mod range;
 
+use std::cell::Cell;
 use std::path::Path;
 
 use ingest::{ReadError, SessionReader};
 use model::{Problem, SessionStatus, Severity, Stage};
 
 use crate::reporter::Reporter;
-use crate::session::{SessionOutput, ingest_card, source_of, without_host};
-use crate::sessions::{in_parallel, unless_panicking};
+use crate::session::{Prepared, ingest_unkept, without_host};
+use crate::sessions::unless_panicking;
 use crate::study::{SessionDir, Study};
 use crate::survey::{Survey, SurveyError, SurveyOptions};
 
@@ -59,9 +60,10 @@ pub fn inspect_study(
     reporter: &dyn Reporter,
 ) -> Result<Vec<Inspected>, SurveyError> {
     let survey = Survey::new(options)?;
-    let inspected = in_parallel(study, options.jobs, reporter, |dir| {
-        let facts = unless_panicking(dir, || inspect_session(study, dir, &survey, reporter)).and_then(|facts| facts);
-        survey.forget(dir);
+    let inspected = survey.each(study, options.jobs, reporter, |dir| {
+        let stage = Cell::new(Stage::Ingest);
+        let facts = unless_panicking(dir, &stage, || inspect_session(study, dir, &survey, reporter));
+        let facts = facts.and_then(|facts| facts);
         let failed = facts.is_err();
         reporter.done(&SessionStatus { session: dir.name.clone(), failed, ..SessionStatus::default() });
         Inspected { session: dir.name.clone(), facts }
@@ -79,9 +81,8 @@ fn inspect_session(
         let fact = without_host(&problem.fact, study, &survey.options.mcap_dir);
         Problem { fact, ..problem }
     };
-    reporter.stage(&dir.name, Stage::Ingest);
-    let source = source_of(study, dir, &survey.options.program, &mut SessionOutput::default());
-    let mcap = source.and_then(|(_, source, _)| ingest_card(&source, &survey.options, reporter));
+    let prepared = Prepared::new(study, dir, &survey.options.program);
+    let mcap = prepared.and_then(|prepared| ingest_unkept(&prepared, &survey.options, reporter));
     reporter.stage(&dir.name, Stage::Signals);
     let facts = mcap.and_then(|mcap| {
         inspect_file(&mcap, study.spec.mount.pitch_offset_deg).map_err(|error| unreadable(dir, &error))

@@ -51,7 +51,7 @@ pub(super) fn ledger(session: &Session<'_>, marks: &SessionMarks, results: &[Res
 }
 
 /// One row for every image on the card of a session of which nothing could be used, by file.
-pub(crate) fn ledger_of_failed(study: &Study, dir: &SessionDir) -> Vec<FrameRow> {
+pub(super) fn ledger_of_failed(study: &Study, dir: &SessionDir) -> Vec<FrameRow> {
     let (Some(card_dir), Some(images)) = (&dir.card, &study.profile.images) else { return Vec::new() };
     if !study.holds(card_dir) {
         return Vec::new();

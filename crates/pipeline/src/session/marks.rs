@@ -9,6 +9,7 @@ use super::problems::LINK_FACT;
 use super::{Session, SessionOutput, relative};
 use crate::inputs::sha256_of_bytes;
 use crate::labelme::{self, MarksError};
+use crate::study::marks_in;
 
 /// Marks by image (file on the card), then rater.
 #[derive(Debug, Default)]
@@ -55,12 +56,8 @@ fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> V
         problems.push(problem("link_out_of_study", relative(session.study, dir), LINK_FACT.to_owned(), remedy));
         return Vec::new();
     }
-    match std::fs::read_dir(dir).and_then(|entries| entries.map(|e| Ok(e?.path())).collect::<Result<Vec<_>, _>>()) {
-        Ok(mut paths) => {
-            paths.retain(|path| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json")));
-            paths.sort();
-            paths
-        }
+    match marks_in(dir) {
+        Ok(paths) => paths,
         Err(error) => {
             let fact = format!("cannot list the folder: {error}");
             problems.push(problem("marks_unreadable", relative(session.study, dir), fact, "check its permissions"));

@@ -6,8 +6,9 @@ mod lag;
 mod ledger;
 mod marks;
 mod measurement;
+mod prepared;
 mod problems;
-mod read;
+mod recording;
 mod row;
 mod surest;
 #[cfg(test)]
@@ -16,23 +17,25 @@ mod tests;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use ingest::{DroppedImage, ImageEntry, IngestProgress, Ingested, SessionSource};
+use ingest::{DroppedImage, ImageEntry, IngestError, IngestProgress};
 use model::{Camera, FrameRow, Problem, ResultRow, SessionStatus, Severity, Stage};
+use serde::{Deserialize, Serialize};
 
 use crate::calibrate::BenchSession;
-use crate::inputs::sha256_of_file;
 use crate::reporter::Reporter;
-use crate::signals::FrameSignals;
+use crate::signals::{FrameSignals, Reading};
+use crate::stop::Stop;
 use crate::study::{SessionDir, SessionSpec, Study};
-pub(crate) use ledger::ledger_of_failed;
+use ledger::ledger_of_failed;
 use marks::SessionMarks;
+pub(crate) use prepared::Prepared;
+use problems::no_pose;
 pub(crate) use problems::without_host;
-use problems::{MARKS_CAMERA_FACT, bad_camera, link_out_of_study, missing_card, no_pose};
-use read::Read;
+pub(crate) use recording::{BAD_MCAP, Recording, read as read_recording};
 
 /// What one session gives.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct SessionOutput {
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct SessionOutput {
     /// How it fared.
     pub status: SessionStatus,
     /// Sizes.
@@ -41,21 +44,22 @@ pub struct SessionOutput {
     pub frames: Vec<FrameRow>,
     /// SHA-256 of what was read, by path relative to the study.
     pub inputs_sha256: BTreeMap<String, String>,
-    /// Known sizes, for a calibration; only of a survey.
+    /// Known sizes, where a calibration asks for them.
+    #[serde(skip)]
     pub bench: BenchSession,
 }
 
-/// Settings of a run that are not the study's.
+/// How [`run_session`] treats a session.
 #[derive(Debug, Clone)]
-pub struct SessionOptions {
+pub(crate) struct SessionOptions {
     /// Folder for MCAP files.
     pub mcap_dir: PathBuf,
-    /// Whether to ingest cards again that have not changed.
-    pub force: bool,
     /// Whether to survey cards only: MCAP files then have no pictures, and belong into a temporary folder.
     pub survey: bool,
     /// Program and version, for provenance.
     pub program: String,
+    /// A wish to stop.
+    pub stop: Stop,
 }
 
 /// An image with its signals, as the later steps see it.
@@ -82,58 +86,106 @@ impl Session<'_> {
     }
 }
 
-/// Runs one session. Whatever goes wrong is in the status; what could be used is in the rows.
-pub fn run_session(
+/// Goes the road of one session without keeping anything but its MCAP file. Whatever goes wrong is in the status; what could be used is
+/// in the rows.
+pub(crate) fn run_session(
     study: &Study,
     dir: &SessionDir,
     options: &SessionOptions,
     reporter: &dyn Reporter,
 ) -> SessionOutput {
-    let mut output = SessionOutput::default();
-    output.status.session.clone_from(&dir.name);
-    if let Err(problem) = fill(study, dir, options, reporter, &mut output) {
-        output.status.failed = true;
-        output.status.problems.push(problem);
-        output.frames = ledger_of_failed(study, dir);
-        output.status.images = output.frames.len();
-    }
-    for problem in &mut output.status.problems {
-        problem.fact = without_host(&problem.fact, study, &options.mcap_dir);
-    }
-    output.status.problems.iter().for_each(|problem| log(&dir.name, problem));
+    let mut output = unkept(study, dir, options, reporter).unwrap_or_else(|problem| failed(study, dir, problem));
+    tidy(&mut output, study, &options.mcap_dir);
     output
 }
 
-/// Losses as warnings; notes are told in the report, and logged for those who ask for more.
-fn log(session: &str, problem: &Problem) {
-    let Problem { severity, stage, code, place, fact, remedy } = problem;
-    match severity {
-        Severity::Loss => tracing::warn!(session, %stage, code, place, remedy, "{fact}"),
-        Severity::Note => tracing::info!(session, %stage, code, place, remedy, "{fact}"),
-    }
-}
-
-fn fill(
+fn unkept(
     study: &Study,
     dir: &SessionDir,
     options: &SessionOptions,
     reporter: &dyn Reporter,
-    output: &mut SessionOutput,
-) -> Result<(), Problem> {
-    let (spec, source, marks_camera) = source_of(study, dir, &options.program, output)?;
-    reporter.stage(&dir.name, Stage::Ingest);
-    let mcap = ingest_card(&source, options, reporter)?;
+) -> Result<SessionOutput, Problem> {
+    let prepared = Prepared::new(study, dir, &options.program)?;
+    let mcap = ingest_unkept(&prepared, options, reporter)?;
     reporter.stage(&dir.name, Stage::Signals);
-    let Read { metadata, frames, notes } = read::read(study, &mcap, &dir.name)?;
-    output.status.problems.extend(metadata.problems.iter().cloned().chain(notes));
-    let on_card = metadata.inputs_sha256.iter().map(|(file, sha)| (format!("cards/{}/{file}", dir.name), sha.clone()));
+    let recording = read_recording(study, &mcap, &dir.name)?;
+    Ok(measure(study, dir, &prepared, recording, reporter))
+}
+
+/// Ingests or surveys a card; gives the MCAP file.
+pub(crate) fn ingest_unkept(
+    prepared: &Prepared,
+    options: &SessionOptions,
+    reporter: &dyn Reporter,
+) -> Result<PathBuf, Problem> {
+    let source = &prepared.source;
+    reporter.stage(&source.session, Stage::Ingest);
+    let mcap = options.mcap_dir.join(format!("{}.mcap", source.session));
+    let progress = IngestReporter { session: &source.session, reporter, stop: &options.stop };
+    let ingested = if options.survey {
+        ingest::survey_session(source, &mcap, &progress)
+    } else {
+        ingest::ingest_session(source, &mcap, &progress)
+    };
+    ingested.map(|_| mcap).map_err(|error| ingest_problem(&source.session, &error))
+}
+
+/// What a session gives of which nothing could be used.
+pub(crate) fn failed(study: &Study, dir: &SessionDir, problem: Problem) -> SessionOutput {
+    let frames = ledger_of_failed(study, dir);
+    let (session, images, problems) = (dir.name.clone(), frames.len(), vec![problem]);
+    let status = SessionStatus { session, failed: true, images, problems, ..SessionStatus::default() };
+    SessionOutput { status, frames, ..SessionOutput::default() }
+}
+
+/// Takes out what depends on where things lie, and logs the problems.
+pub(crate) fn tidy(output: &mut SessionOutput, study: &Study, mcap_dir: &Path) {
+    for problem in &mut output.status.problems {
+        problem.fact = without_host(&problem.fact, study, mcap_dir);
+    }
+    log_problems(&output.status);
+}
+
+/// Losses as warnings; notes are told in the report, and logged for those who ask for more.
+pub(crate) fn log_problems(status: &SessionStatus) {
+    let session = &status.session;
+    for Problem { severity, stage, code, place, fact, remedy } in &status.problems {
+        match severity {
+            Severity::Loss => tracing::warn!(session, %stage, code, place, remedy, "{fact}"),
+            Severity::Note => tracing::info!(session, %stage, code, place, remedy, "{fact}"),
+        }
+    }
+}
+
+/// From a recording to rows.
+pub(crate) fn measure(
+    study: &Study,
+    dir: &SessionDir,
+    prepared: &Prepared,
+    recording: Recording,
+    reporter: &dyn Reporter,
+) -> SessionOutput {
+    let mut output = SessionOutput::default();
+    output.status.session.clone_from(&dir.name);
+    output.status.problems = recording.problems;
+    output.inputs_sha256.extend(prepared.session_toml_sha256.clone());
+    let on_card = recording.inputs_sha256.into_iter().map(|(file, sha)| (format!("cards/{}/{file}", dir.name), sha));
     output.inputs_sha256.extend(on_card);
-    let session = Session { study, dir, spec, marks_camera, frames, dropped: metadata.dropped_images };
+    let settings = prepared.pose_settings(study, recording.mount_pitch_deg);
+    let of_image = |(image, reading): (ImageEntry, Reading)| Frame { image, signals: reading.judge(&settings) };
+    let session = Session {
+        study,
+        dir,
+        spec: prepared.spec.clone(),
+        marks_camera: prepared.marks_camera.1,
+        frames: recording.images.into_iter().zip(recording.readings).map(of_image).collect(),
+        dropped: recording.dropped,
+    };
     reporter.stage(&dir.name, Stage::Marks);
-    let marks = SessionMarks::read(&session, output);
+    let marks = SessionMarks::read(&session, &mut output);
     reporter.stage(&dir.name, Stage::Measure);
     let marked = measurement::marked(&session, &marks, &mut output.status.problems);
-    if options.survey {
+    if study.is_bench {
         output.bench = bench::of(&session, &marked);
     }
     let mut measurements = measurement::measure_all(&marked, &mut output.status.problems);
@@ -146,95 +198,38 @@ fn fill(
     output.status.problems.extend(no_pose(&session));
     output.status.selected = output.frames.iter().filter(|f| f.reason == model::FrameReason::Selected).count();
     output.status.sizes = output.results.iter().filter(|row| row.predicted_mm.is_some()).count();
-    Ok(())
+    output
 }
 
-/// What a session is ingested from, and the camera of its marked pictures.
-pub(crate) fn source_of(
-    study: &Study,
-    dir: &SessionDir,
-    program: &str,
-    output: &mut SessionOutput,
-) -> Result<(SessionSpec, SessionSource, Camera), Problem> {
-    let card = dir.card.as_deref().ok_or_else(|| missing_card(dir))?;
-    if !study.holds(card) {
-        return Err(link_out_of_study(dir));
-    }
-    let spec = session_spec(study, card, output)?;
-    let (camera_spec, camera) = study.camera_of_session(&spec).map_err(|error| bad_camera(dir, error.to_string()))?;
-    let marks_camera = study.marks_camera_of_session(&spec, camera);
-    let marks_camera = marks_camera.map_err(|error| bad_camera(dir, error.to_string()))?;
-    let marks_camera = marks_camera.ok_or_else(|| bad_camera(dir, MARKS_CAMERA_FACT.to_owned()))?;
-    let source = SessionSource {
-        session: dir.name.clone(),
-        card_dir: card.to_owned(),
-        profile: study.profile.clone(),
-        camera_spec,
-        time_zone: study.time_zone.clone(),
-        clock_zero_utc: spec.clock_zero_utc,
-        program: program.to_owned(),
-    };
-    Ok((spec, source, marks_camera))
-}
-
-fn session_spec(study: &Study, card: &Path, output: &mut SessionOutput) -> Result<SessionSpec, Problem> {
-    let path = card.join("session.toml");
-    if !path.is_file() {
-        return Ok(SessionSpec::default());
-    }
-    let refuse = |fact: String| Problem {
-        severity: Severity::Loss,
-        stage: Stage::Study,
-        code: "bad_session_toml".to_owned(),
-        place: relative(study, &path),
-        fact,
-        remedy: "correct the file (docs/study.md)".to_owned(),
-    };
-    output.inputs_sha256.insert(relative(study, &path), sha256_of_file(&path).map_err(|e| refuse(e.to_string()))?);
-    ingest::config::read_toml(&path).map_err(|error| refuse(error.to_string()))
-}
-
-/// Ingests a card, or surveys it; gives the MCAP file.
-pub(crate) fn ingest_card(
-    source: &SessionSource,
-    options: &SessionOptions,
-    reporter: &dyn Reporter,
-) -> Result<PathBuf, Problem> {
-    let mcap = options.mcap_dir.join(format!("{}.mcap", source.session));
-    let progress = Progress { session: &source.session, reporter };
-    let outcome = if options.survey {
-        ingest::survey_session(source, &mcap, &progress).map(|summary| Ingested::Fresh(Box::new(summary)))
-    } else if options.force {
-        ingest::ingest_session(source, &mcap, &progress).map(|summary| Ingested::Fresh(Box::new(summary)))
-    } else {
-        ingest::ingest_if_changed(source, &mcap, &progress)
-    };
-    if let Ok(ingested) = &outcome {
-        let what = if matches!(ingested, Ingested::Current) { "unchanged, MCAP file kept" } else { "ingested" };
-        tracing::info!(session = source.session, "{what}");
-    }
-    outcome.map(|_| mcap).map_err(|error| Problem {
+/// An ingest that failed, as a session's problem.
+pub(crate) fn ingest_problem(session: &str, error: &IngestError) -> Problem {
+    Problem {
         severity: Severity::Loss,
         stage: Stage::Ingest,
         code: error.code().to_owned(),
-        place: format!("cards/{}", source.session),
+        place: format!("cards/{session}"),
         fact: error.to_string(),
         remedy: error.remedy().to_owned(),
-    })
+    }
 }
 
-struct Progress<'a> {
+struct IngestReporter<'a> {
     session: &'a str,
     reporter: &'a dyn Reporter,
+    stop: &'a Stop,
 }
 
-impl IngestProgress for Progress<'_> {
+impl IngestProgress for IngestReporter<'_> {
     fn begin(&self, bytes: u64) {
         self.reporter.bytes_to_read(self.session, bytes);
     }
 
     fn advance(&self, bytes: u64) {
         self.reporter.bytes_read(self.session, bytes);
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop.is_set()
     }
 }
 

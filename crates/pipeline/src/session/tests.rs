@@ -23,9 +23,9 @@ fn run_with(adjust: impl FnOnce(&mut StudySpec)) -> SessionOutput {
     let mcap_dir = tempfile::tempdir().unwrap();
     let options = SessionOptions {
         mcap_dir: mcap_dir.path().to_owned(),
-        force: false,
         survey: false,
         program: "test".to_owned(),
+        stop: Stop::default(),
     };
     run_session(&study, dir, &options, &Silent)
 }

@@ -3,13 +3,14 @@
 use model::{FrameFlag, FrameReason, Pose};
 use nalgebra::{Rotation3, Vector3};
 
+use super::FrameSignals;
 use super::gravity::Gravity;
 use super::range::{Range, cone};
-use super::{FrameSignals, SignalSettings};
+use super::settings::PoseSettings;
 use crate::study::RangeCone;
 
 /// What the sensors say about one image; none when its time exists twice.
-pub(super) fn signals(found: Option<(Option<Gravity>, Range)>, settings: &SignalSettings) -> FrameSignals {
+pub(super) fn signals(found: Option<(Option<Gravity>, Range)>, settings: &PoseSettings) -> FrameSignals {
     match found {
         Some((gravity, range)) => of_readings(gravity, range, settings),
         None => FrameSignals {
@@ -28,7 +29,7 @@ pub(super) fn signals(found: Option<(Option<Gravity>, Range)>, settings: &Signal
     }
 }
 
-fn of_readings(gravity: Option<Gravity>, range: Range, settings: &SignalSettings) -> FrameSignals {
+fn of_readings(gravity: Option<Gravity>, range: Range, settings: &PoseSettings) -> FrameSignals {
     let pitch_roll_rad = gravity
         .and_then(|g| Pose::pitch_roll_of_down(&down_in_camera(&g.specific_force_g, settings.mount_pitch_rad)).ok());
     let pose = match (pitch_roll_rad, range.median_mm) {
@@ -50,7 +51,7 @@ fn of_readings(gravity: Option<Gravity>, range: Range, settings: &SignalSettings
     };
     signals.reason = reason(&signals, settings);
     signals.pose = pose.filter(|_| signals.reason.has_pose());
-    let wants_cone = settings.signals.range_cone == RangeCone::TiltedPlane;
+    let wants_cone = settings.range_cone == RangeCone::TiltedPlane;
     signals.cone_pose = signals.pose.filter(|_| wants_cone).and_then(without_cone);
     let skipped = wants_cone && signals.pose.is_some() && signals.cone_pose.is_none();
     let flags = [
@@ -70,13 +71,13 @@ fn without_cone(pose: Pose) -> Option<Pose> {
 }
 
 /// The ledger's reason: the first that applies.
-fn reason(signals: &FrameSignals, settings: &SignalSettings) -> FrameReason {
+fn reason(signals: &FrameSignals, settings: &PoseSettings) -> FrameReason {
     let (Some(gravity_mg), Some(stillness_mg), Some((pitch_rad, _))) =
         (signals.gravity_mg, signals.stillness_mg, signals.pitch_roll_rad)
     else {
         return FrameReason::NoAcceleration;
     };
-    if (gravity_mg - 1000.0).abs() > settings.signals.gravity_tolerance_mg {
+    if (gravity_mg - 1000.0).abs() > settings.gravity_tolerance_mg {
         return FrameReason::BadGravity;
     }
     if signals.range_mm.is_none() {
@@ -85,7 +86,7 @@ fn reason(signals: &FrameSignals, settings: &SignalSettings) -> FrameReason {
     if signals.pose.is_none() {
         return FrameReason::NotBelowHorizon;
     }
-    if stillness_mg > settings.signals.stillness_max_mg {
+    if stillness_mg > settings.stillness_max_mg {
         return FrameReason::Moving;
     }
     let off_target_deg = (pitch_rad.to_degrees() - settings.select.target_pitch_deg).abs();
@@ -126,12 +127,8 @@ mod tests {
         Some(Gravity { specific_force_g, motion_rms_g, one_sided: false })
     }
 
-    fn settings() -> SignalSettings {
-        SignalSettings {
-            signals: SignalsSpec::default(),
-            select: SelectSpec::default(),
-            mount_pitch_rad: 21_f64.to_radians(),
-        }
+    fn settings() -> PoseSettings {
+        PoseSettings::new(&SignalsSpec::default(), &SelectSpec::default(), 21_f64.to_radians())
     }
 
     fn said(specific_force_g: Vector3<f64>, motion_rms_g: f64, range_mm: Option<f64>) -> FrameSignals {
@@ -210,7 +207,7 @@ mod tests {
         let plain = said(at_rest(34.0, 0.0), 0.005, Some(580.0));
         assert_eq!((plain.cone_pose, plain.pose_for(Method::Ray)), (None, plain.pose));
         let mut declared = settings();
-        declared.signals.range_cone = RangeCone::TiltedPlane;
+        declared.range_cone = RangeCone::TiltedPlane;
         let found = of_readings(gravity(at_rest(34.0, 0.0), 0.005), range(Some(580.0)), &declared);
         assert_eq!((found.pose, found.range_mm), (plain.pose, plain.range_mm), "the reading stays as it was");
         assert_eq!(found.pose_for(Method::Paper), plain.pose);

@@ -12,11 +12,12 @@ use std::f64::consts::{LN_2, TAU};
 
 use model::{UtcNs, median};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use fit::Line;
 
 /// Gravity as the device feels it, and the motion around it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Gravity {
     /// Low-passed specific force, device frame; at rest it points up with length 1.
     pub specific_force_g: Vector3<f64>,

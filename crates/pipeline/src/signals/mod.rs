@@ -7,6 +7,7 @@ mod frame;
 mod gravity;
 pub mod lag;
 mod range;
+mod settings;
 #[cfg(test)]
 mod tests;
 mod window;
@@ -15,12 +16,16 @@ use ingest::timeline::Timeline;
 use ingest::{ReadError, Sample, SessionReader};
 use model::{FrameFlag, FrameReason, Method, Pose, UtcNs};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
-use crate::study::{GravityCalibrate, SelectSpec, SignalsSpec};
+use crate::study::GravityCalibrate;
 use calibration::StillWindows;
 pub use calibration::{AxisCalibration, CalibrationVerdict, GravityCalibration};
 pub(crate) use frame::down_in_camera;
+use gravity::Gravity;
 pub(crate) use range::NO_TARGET_MM;
+use range::Range;
+pub use settings::{PoseSettings, ReadingSettings};
 use window::Windows;
 
 /// What the sensors say about one image.
@@ -58,27 +63,31 @@ impl FrameSignals {
     }
 }
 
-/// Settings of this stage.
-#[derive(Debug, Clone)]
-pub struct SignalSettings {
-    /// From samples to numbers.
-    pub signals: SignalsSpec,
-    /// From numbers to a choice.
-    pub select: SelectSpec,
-    /// Camera pitch = sensor pitch + this.
-    pub mount_pitch_rad: f64,
+/// What the sensors read around one image, before any threshold.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Reading {
+    /// None when the image's time exists twice.
+    found: Option<(Option<Gravity>, Range)>,
 }
 
-/// What the sensors of a session say.
+impl Reading {
+    /// The pose, and the reason that the ledger gives.
+    #[must_use]
+    pub fn judge(&self, settings: &PoseSettings) -> FrameSignals {
+        frame::signals(self.found, settings)
+    }
+}
+
+/// What the sensors of a session read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SessionSignals {
-    /// About each image, in their order.
-    pub frames: Vec<FrameSignals>,
+pub struct SessionReadings {
+    /// Around each image, in their order.
+    pub readings: Vec<Reading>,
     /// About the accelerometer, unless that was not asked for.
     pub calibration: Option<GravityCalibration>,
 }
 
-/// The signals at each of `image_times`, which must be in order.
+/// The readings around each of `image_times`, which must be in order.
 ///
 /// Samples of one sensor must come in the order of time; how the sensors alternate does not matter. To apply a gravity
 /// calibration the samples are streamed twice.
@@ -88,8 +97,8 @@ pub struct SessionSignals {
 pub fn at_images(
     reader: &mut SessionReader,
     image_times: &[UtcNs],
-    settings: &SignalSettings,
-) -> Result<SessionSignals, ReadError> {
+    settings: &ReadingSettings,
+) -> Result<SessionReadings, ReadError> {
     let timeline = reader.metadata().timeline.clone();
     evaluate(|each| reader.for_each_sample(each), &timeline, image_times, settings)
 }
@@ -99,21 +108,21 @@ fn evaluate<E>(
     mut stream: impl FnMut(&mut dyn FnMut(Sample)) -> Result<(), E>,
     timeline: &Timeline,
     image_times: &[UtcNs],
-    settings: &SignalSettings,
-) -> Result<SessionSignals, E> {
-    let spec = &settings.signals;
+    settings: &ReadingSettings,
+) -> Result<SessionReadings, E> {
     let mut still = StillWindows::default();
-    let applies = spec.gravity_calibration == GravityCalibrate::Apply;
+    let applies = settings.gravity_calibration == GravityCalibrate::Apply;
     if applies {
         stream(&mut |sample| still.push_sample(&sample))?;
     }
     let applied = applies.then(|| still.calibration()).and_then(|calibration| calibration.accepted());
-    let watches = spec.gravity_calibration == GravityCalibrate::Report;
-    let half_gravity_s = gravity::half_window_s(spec.gravity_cutoff_hz);
-    let half_range_s = 0.5 * spec.range_window_s;
-    let gravity_at = |time, samples: &[(UtcNs, Vector3<f64>)]| gravity::at(time, samples, spec.gravity_cutoff_hz);
+    let watches = settings.gravity_calibration == GravityCalibrate::Report;
+    let half_gravity_s = gravity::half_window_s(settings.gravity_cutoff_hz);
+    let half_range_s = 0.5 * settings.range_window_s;
+    let gravity_at = |time, samples: &[(UtcNs, Vector3<f64>)]| gravity::at(time, samples, settings.gravity_cutoff_hz);
     let mut accelerations = Windows::new(image_times, half_gravity_s, gravity_at);
-    let mut ranges = Windows::new(image_times, half_range_s, |_, samples: &[(UtcNs, f64)]| range::of(samples, spec));
+    let range_of = |_, samples: &[(UtcNs, f64)]| range::of(samples, settings);
+    let mut ranges = Windows::new(image_times, half_range_s, range_of);
     stream(&mut |sample| {
         if watches {
             still.push_sample(&sample);
@@ -128,7 +137,7 @@ fn evaluate<E>(
     })?;
     let is_ambiguous = |time: &UtcNs| timeline.is_ambiguous(*time, half_gravity_s.max(half_range_s));
     let found = accelerations.finish().into_iter().zip(ranges.finish()).zip(image_times);
-    let frames = found.map(|(found, time)| frame::signals((!is_ambiguous(time)).then_some(found), settings)).collect();
+    let readings = found.map(|(found, time)| Reading { found: (!is_ambiguous(time)).then_some(found) }).collect();
     let calibration = (applies || watches).then(|| still.calibration());
-    Ok(SessionSignals { frames, calibration })
+    Ok(SessionReadings { readings, calibration })
 }

@@ -7,6 +7,7 @@ use ingest::timeline::Span;
 use model::FrameReason;
 
 use super::*;
+use crate::study::{SelectSpec, SignalsSpec};
 
 const RATE_HZ: f64 = 32.0;
 
@@ -14,13 +15,21 @@ fn seconds(s: f64) -> UtcNs {
     UtcNs(0).plus_seconds(s)
 }
 
-fn settings(adjust: impl FnOnce(&mut SignalsSpec)) -> SignalSettings {
-    let mut signals = SignalsSpec::default();
-    adjust(&mut signals);
-    SignalSettings { signals, select: SelectSpec::default(), mount_pitch_rad: 21_f64.to_radians() }
+fn settings(gravity_calibration: GravityCalibrate) -> ReadingSettings {
+    ReadingSettings { gravity_calibration, ..ReadingSettings::default() }
 }
 
-fn signals_of(samples: &[Sample], timeline: &Timeline, images: &[UtcNs], settings: &SignalSettings) -> SessionSignals {
+fn judged(found: &SessionReadings) -> Vec<FrameSignals> {
+    let settings = PoseSettings::new(&SignalsSpec::default(), &SelectSpec::default(), 21_f64.to_radians());
+    found.readings.iter().map(|reading| reading.judge(&settings)).collect()
+}
+
+fn readings_of(
+    samples: &[Sample],
+    timeline: &Timeline,
+    images: &[UtcNs],
+    settings: &ReadingSettings,
+) -> SessionReadings {
     let stream = |each: &mut dyn FnMut(Sample)| -> Result<(), Infallible> {
         samples.iter().for_each(|sample| each(*sample));
         Ok(())
@@ -52,10 +61,11 @@ fn recording() -> (Vec<Sample>, f64) {
 fn an_accepted_calibration_is_applied_only_when_asked_for() {
     let (samples, worn_s) = recording();
     let roll_deg = |gravity_calibration| {
-        let settings = settings(|spec| spec.gravity_calibration = gravity_calibration);
-        let found = signals_of(&samples, &Timeline::default(), &[seconds(worn_s + 30.0)], &settings);
-        assert_eq!(found.frames[0].reason, FrameReason::Selected);
-        (found.frames[0].pitch_roll_rad.unwrap().1.to_degrees(), found.calibration)
+        let settings = settings(gravity_calibration);
+        let found = readings_of(&samples, &Timeline::default(), &[seconds(worn_s + 30.0)], &settings);
+        let frames = judged(&found);
+        assert_eq!(frames[0].reason, FrameReason::Selected);
+        (frames[0].pitch_roll_rad.unwrap().1.to_degrees(), found.calibration)
     };
     let (off, reported, applied) =
         (roll_deg(GravityCalibrate::Off), roll_deg(GravityCalibrate::Report), roll_deg(GravityCalibrate::Apply));
@@ -71,10 +81,10 @@ fn an_accepted_calibration_is_applied_only_when_asked_for() {
 fn how_the_sensors_alternate_does_not_matter() {
     let (mut samples, worn_s) = recording();
     let images = [seconds(100.0), seconds(worn_s + 1.0), seconds(worn_s + 30.0), seconds(worn_s + 60.0)];
-    let apart = signals_of(&samples, &Timeline::default(), &images, &settings(|_| ()));
+    let apart = readings_of(&samples, &Timeline::default(), &images, &ReadingSettings::default());
     samples.sort_by_key(Sample::time);
-    assert_eq!(signals_of(&samples, &Timeline::default(), &images, &settings(|_| ())), apart);
-    assert_eq!(apart.frames[3].flags, [FrameFlag::GravityEdge], "the recording ends there");
+    assert_eq!(readings_of(&samples, &Timeline::default(), &images, &ReadingSettings::default()), apart);
+    assert_eq!(judged(&apart)[3].flags, [FrameFlag::GravityEdge], "the recording ends there");
 }
 
 #[test]
@@ -83,9 +93,10 @@ fn an_image_near_a_time_that_exists_twice_has_no_pose() {
     let span = Span { from: seconds(worn_s + 20.0), to: seconds(worn_s + 25.0) };
     let timeline = Timeline { ambiguous: vec![span], ..Timeline::default() };
     let images = [15.0, 19.0, 22.0, 26.0, 30.0].map(|s| seconds(worn_s + s));
-    let found = signals_of(&samples, &timeline, &images, &settings(|_| ()));
-    let reasons: Vec<_> = found.frames.iter().map(|frame| frame.reason).collect();
+    let found = readings_of(&samples, &timeline, &images, &ReadingSettings::default());
+    let frames = judged(&found);
+    let reasons: Vec<_> = frames.iter().map(|frame| frame.reason).collect();
     let (good, twice) = (FrameReason::Selected, FrameReason::AmbiguousTime);
     assert_eq!(reasons, [good, twice, twice, twice, good]);
-    assert!(found.frames[2].pose.is_none() && found.frames[2].range_mm.is_none());
+    assert!(frames[2].pose.is_none() && frames[2].range_mm.is_none());
 }

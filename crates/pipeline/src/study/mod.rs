@@ -17,6 +17,7 @@ use model::{Camera, CameraSpec, TableSpec};
 use crate::calibrate::CalibrationFile;
 pub use error::StudyError;
 pub use objects::Object;
+pub(crate) use sessions::marks_in;
 pub use sessions::{SessionDir, SessionSpec};
 pub use spec::{
     GravityCalibrate, MarksSpec, MeasureSpec, MountSpec, PrintedFiles, RangeCone, SelectSpec, SignalsSpec, StudySpec,
@@ -47,6 +48,8 @@ pub struct Study {
     pub sessions: Vec<SessionDir>,
     /// What a bench has taught about the device, where a run is told of it.
     pub calibration: Option<CalibrationFile>,
+    /// Whether sessions are to keep their known sizes, for a calibration.
+    pub(crate) is_bench: bool,
 }
 
 impl Study {
@@ -75,6 +78,7 @@ impl Study {
             dir: dir.to_owned(),
             spec,
             calibration: None,
+            is_bench: false,
         };
         camera_of(&study.spec.camera, &study.camera_spec)?;
         study.check_tables()?;
@@ -113,12 +117,16 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError`] when the session names a camera that cannot be read.
-    pub fn marks_camera_of_session(&self, session: &SessionSpec, camera: Camera) -> Result<Option<Camera>, StudyError> {
+    pub fn marks_camera_of_session(
+        &self,
+        session: &SessionSpec,
+        camera: &(CameraSpec, Camera),
+    ) -> Result<Option<(CameraSpec, Camera)>, StudyError> {
         match (&session.marks_camera, &self.marks_camera) {
-            (Some(name), _) => load_camera(name, &self.dir.join("devices")).map(|(_, camera)| Some(camera)),
+            (Some(name), _) => load_camera(name, &self.dir.join("devices")).map(Some),
             (None, Some(_)) if session.camera.is_some() => Ok(None),
-            (None, Some((_, of_study))) => Ok(Some(*of_study)),
-            (None, None) => Ok(Some(camera)),
+            (None, Some(of_study)) => Ok(Some(of_study.clone())),
+            (None, None) => Ok(Some(camera.clone())),
         }
     }
 

@@ -36,6 +36,27 @@ pub struct SessionDir {
     pub marks: BTreeMap<String, PathBuf>,
 }
 
+impl SessionDir {
+    /// The files of marks of all raters, by name, in a defined order. A folder that cannot be listed stands for its files.
+    #[must_use]
+    pub fn marks_files(&self) -> Vec<(String, PathBuf)> {
+        let of_rater = |(rater, dir): (&String, &PathBuf)| {
+            let files = marks_in(dir).unwrap_or_else(|_| vec![dir.clone()]);
+            let name = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            files.into_iter().map(|path| (format!("{rater}/{}", name(&path)), path)).collect::<Vec<_>>()
+        };
+        self.marks.iter().flat_map(of_rater).collect()
+    }
+}
+
+/// The files of marks in a rater's folder of a session, by name.
+pub(crate) fn marks_in(dir: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let mut paths = std::fs::read_dir(dir)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
+    paths.retain(|path| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json")));
+    paths.sort();
+    Ok(paths)
+}
+
 /// Sessions in the order of their names.
 pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
     let mut sessions: BTreeMap<String, SessionDir> = BTreeMap::new();

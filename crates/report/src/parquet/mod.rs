@@ -18,8 +18,18 @@ const RUN_KEY: &str = "aim_batch.run";
 /// Where the ledger of `results` is: `frames.parquet` beside `results.parquet`, `X.frames.parquet` beside `X.parquet`.
 #[must_use]
 pub fn frames_file(results: &Path) -> PathBuf {
+    beside(results, "frames.parquet")
+}
+
+/// Where the record of the run is: `run.json` beside `results.parquet`, `X.run.json` beside `X.parquet`.
+#[must_use]
+pub fn run_file(results: &Path) -> PathBuf {
+    beside(results, "run.json")
+}
+
+fn beside(results: &Path, name: &str) -> PathBuf {
     match results.file_stem().map(|stem| stem.to_string_lossy()) {
-        Some(stem) if stem != "results" => results.with_file_name(format!("{stem}.frames.parquet")),
-        _ => results.with_file_name("frames.parquet"),
+        Some(stem) if stem != "results" => results.with_file_name(format!("{stem}.{name}")),
+        _ => results.with_file_name(name),
     }
 }

@@ -8,11 +8,10 @@ use std::sync::PoisonError;
 use model::results::Row;
 use polars::io::parquet::write::{BatchedWriter, KeyValueMetadata, ParquetMetadataContext};
 use polars::prelude::{DataFrame, Field, ParquetCompression, ParquetWriter, Schema};
-use tempfile::NamedTempFile;
 
 use super::columns::{data_type, to_columns};
 use super::sink::SinkError;
-use crate::atomic::{self, FileError};
+use crate::atomic::{Aside, FileError};
 
 /// Rows per row group. Memory holds one group; the group's borders depend on nothing but the rows' order, so neither
 /// sessions nor threads show in the bytes.
@@ -21,23 +20,22 @@ const ROWS_PER_GROUP: usize = 1 << 16;
 /// A Parquet file of rows `R`, under a temporary name until it is put in place.
 pub(super) struct RowFile<R> {
     path: PathBuf,
-    temporary: NamedTempFile,
+    aside: Aside,
     writer: BatchedWriter<BufWriter<File>>,
     pending: Vec<R>,
 }
 
 impl<R: Row> RowFile<R> {
     pub(super) fn create(path: &Path) -> Result<Self, SinkError> {
-        let temporary = atomic::temporary_beside(path)?;
-        let handle =
-            temporary.as_file().try_clone().map_err(|source| FileError::Create { path: path.to_owned(), source })?;
+        let aside = Aside::of(path)?;
+        let handle = aside.file().try_clone().map_err(|source| FileError::Create { path: path.to_owned(), source })?;
         let schema: Schema =
             R::COLUMNS.iter().map(|column| Field::new(column.name.into(), data_type(column.column_type))).collect();
         let writer = ParquetWriter::new(BufWriter::new(handle))
             .with_compression(ParquetCompression::Zstd(None))
             .batched(&schema)
             .map_err(|source| SinkError::Encode { path: path.to_owned(), source })?;
-        Ok(Self { path: path.to_owned(), temporary, writer, pending: Vec::new() })
+        Ok(Self { path: path.to_owned(), aside, writer, pending: Vec::new() })
     }
 
     pub(super) fn push(&mut self, rows: Vec<R>) -> Result<(), SinkError> {
@@ -70,11 +68,11 @@ impl<R: Row> RowFile<R> {
             .collect(ParquetMetadataContext { arrow_schema: "" })
             .and_then(|pairs| self.writer.get_writer().lock().unwrap_or_else(PoisonError::into_inner).end(Some(pairs)))
             .map_err(|source| SinkError::Encode { path: self.path.clone(), source })?;
-        Ok(atomic::sync(&self.temporary, &self.path)?)
+        Ok(self.aside.sync()?)
     }
 
     pub(super) fn put_in_place(self) -> Result<(), FileError> {
         drop(self.writer); // Windows renames only closed files
-        atomic::put_in_place(self.temporary, &self.path)
+        self.aside.put_in_place()
     }
 }

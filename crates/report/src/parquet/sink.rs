@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use model::results::{CellError, FrameRow, RESULTS_SCHEMA_VERSION, ResultRow};
-use model::{ResultSink, RunMetadata};
+use model::{ResultSink, RunLog, RunMetadata};
 use polars::prelude::PolarsError;
+use serde::Serialize;
 
 use super::row_file::RowFile;
+use super::run_file;
 use super::{RUN_KEY, VERSION_KEY};
-use crate::atomic::FileError;
+use crate::atomic::{self, FileError};
 
 /// Rows that could not be stored.
 #[derive(Debug, thiserror::Error)]
@@ -46,12 +48,26 @@ pub enum SinkError {
     Finished,
 }
 
-/// Writes `results.parquet` and `frames.parquet`: zstd, byte-identical for equal rows and metadata, in place only when
+/// Writes `results.parquet`, `frames.parquet` and `run.json`: zstd, the Parquet files byte-identical for equal rows and metadata, in place only when
 /// [`finish`](ResultSink::finish) has succeeded. Dropped before, it leaves nothing behind. Memory holds at most 65,536
 /// rows of each file, plus those of one session.
 pub struct ParquetSink {
+    results: PathBuf,
+    frames: PathBuf,
     files: Option<(RowFile<ResultRow>, RowFile<FrameRow>)>,
 }
+
+/// What `run.json` holds: where the results came from, and when.
+#[derive(Serialize)]
+struct RunFile<'a> {
+    schema_version: u32,
+    #[serde(flatten)]
+    metadata: &'a RunMetadata,
+    times: &'a RunLog,
+}
+
+/// Version of the layout of `run.json`.
+const RUN_FILE_VERSION: u32 = 1;
 
 impl ParquetSink {
     /// Opens temporary files beside `results` and `frames`, so that a folder which cannot be written shows before the
@@ -63,7 +79,8 @@ impl ParquetSink {
         if results == frames {
             return Err(SinkError::SamePath { path: results.to_owned() });
         }
-        Ok(Self { files: Some((RowFile::create(results)?, RowFile::create(frames)?)) })
+        let files = Some((RowFile::create(results)?, RowFile::create(frames)?));
+        Ok(Self { results: results.to_owned(), frames: frames.to_owned(), files })
     }
 }
 
@@ -76,7 +93,7 @@ impl ResultSink for ParquetSink {
         frame_file.push(frames)
     }
 
-    fn finish(&mut self, metadata: &RunMetadata) -> Result<(), SinkError> {
+    fn finish(&mut self, metadata: &RunMetadata, log: &RunLog) -> Result<(), SinkError> {
         let (mut result_file, mut frame_file) = self.files.take().ok_or(SinkError::Finished)?;
         let run = serde_json::to_string(metadata).map_err(SinkError::Metadata)?;
         let key_values = [(VERSION_KEY, RESULTS_SCHEMA_VERSION.to_string()), (RUN_KEY, run)];
@@ -84,6 +101,13 @@ impl ResultSink for ParquetSink {
         result_file.seal(&key_values)?;
         // Results last: whoever sees new results also finds their frames.
         frame_file.put_in_place()?;
-        Ok(result_file.put_in_place()?)
+        result_file.put_in_place()?;
+        let run = RunFile { schema_version: RUN_FILE_VERSION, metadata, times: log };
+        let text = serde_json::to_vec_pretty(&run).map_err(SinkError::Metadata)?;
+        Ok(atomic::write(&run_file(&self.results), &text)?)
+    }
+
+    fn files(&self) -> Vec<PathBuf> {
+        vec![self.results.clone(), self.frames.clone(), run_file(&self.results)]
     }
 }

@@ -104,6 +104,7 @@ pub fn note(object: Option<&str>, setup: Option<(f64, f64)>, text: &str) -> Note
 pub fn results(rows: Vec<ResultRow>, tables: Vec<TableSpec>) -> Results {
     let metadata = RunMetadata {
         program: "aim-batch 0.1.0".to_owned(),
+        commit: None,
         study: "by hand".to_owned(),
         statement: Some("Made by hand; proves arithmetic only.".to_owned()),
         settings: serde_json::json!({ "target_pitch_deg": 55.0 }),

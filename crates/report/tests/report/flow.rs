@@ -1,6 +1,6 @@
 //! What became of the images.
 
-use model::{FrameReason, FrameRow, Problem, ResultSink as _, RunMetadata, SessionStatus, Severity, Stage};
+use model::{FrameReason, FrameRow, Problem, ResultSink as _, RunLog, RunMetadata, SessionStatus, Severity, Stage};
 use report::{
     ParquetSink, ReadError, Results, Table, compare, csv, flow, flow_in_short, frames_file, latex, left_out, terminal,
     terminal_set, write_dir,
@@ -44,7 +44,7 @@ fn read(metadata: &RunMetadata, frames: Vec<FrameRow>) -> Results {
     let path = dir.path().join("results.parquet");
     let mut sink = ParquetSink::create(&path, &frames_file(&path)).unwrap();
     sink.session(bench::plates().rows, frames).unwrap();
-    sink.finish(metadata).unwrap();
+    sink.finish(metadata, &RunLog::default()).unwrap();
     let mut results = Results::read(&path).unwrap();
     results.read_flow(&frames_file(&path)).unwrap();
     results
@@ -150,7 +150,7 @@ fn a_ledger_of_another_run_is_refused() {
     for (path, metadata) in [(&one, metadata()), (&two, bench::plates().metadata)] {
         let mut sink = ParquetSink::create(path, &frames_file(path)).unwrap();
         sink.session(Vec::new(), frames()).unwrap();
-        sink.finish(&metadata).unwrap();
+        sink.finish(&metadata, &RunLog::default()).unwrap();
     }
     let mut results = Results::read(&one).unwrap();
     let error = results.read_flow(&frames_file(&two)).unwrap_err();

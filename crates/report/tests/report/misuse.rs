@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use model::ResultSink as _;
+use model::{ResultSink as _, RunLog};
 use polars::prelude::{DataFrame, KeyValueMetadata, ParquetWriter, Series};
 use polars::prelude::{IntoColumn as _, NamedFrom as _};
 use report::{FileError, ParquetSink, ReadError, Results, SinkError, read_frames};
@@ -53,10 +53,10 @@ fn frames_are_not_results() {
     let dir = tempfile::tempdir().unwrap();
     let [results, frames] = ["results.parquet", "frames.parquet"].map(|name| dir.path().join(name));
     let mut sink = ParquetSink::create(&results, &frames).unwrap();
-    sink.finish(&bench::plates().metadata).unwrap();
+    sink.finish(&bench::plates().metadata, &RunLog::default()).unwrap();
     assert!(matches!(Results::read(&frames), Err(ReadError::MissingColumn { column: "object", .. })));
     assert!(matches!(read_frames(&results), Err(ReadError::MissingColumn { column: "reason", .. })));
-    assert!(matches!(sink.finish(&bench::plates().metadata), Err(SinkError::Finished)));
+    assert!(matches!(sink.finish(&bench::plates().metadata, &RunLog::default()), Err(SinkError::Finished)));
     assert!(matches!(sink.session(Vec::new(), Vec::new()), Err(SinkError::Finished)));
 }
 
@@ -89,7 +89,7 @@ fn a_file_cut_short_anywhere_is_refused() {
     let [results, frames] = ["results.parquet", "frames.parquet"].map(|name| dir.path().join(name));
     let mut sink = ParquetSink::create(&results, &frames).unwrap();
     sink.session(bench::plates().rows, Vec::new()).unwrap();
-    sink.finish(&bench::plates().metadata).unwrap();
+    sink.finish(&bench::plates().metadata, &RunLog::default()).unwrap();
     let whole = fs::read(&results).unwrap();
     for length in (0..whole.len()).step_by(97) {
         fs::write(&results, &whole[..length]).unwrap();

@@ -1,7 +1,7 @@
 //! Rows to Parquet and back.
 
 use model::results::{Column, ColumnType, FRAME_COLUMNS, FrameRow, RESULT_COLUMNS, ResultRow, Row, Value};
-use model::{FrameReason, Kind, Level, Method, Quantity, ResultSink as _, RunMetadata, Shape, UtcNs, Verdict};
+use model::{FrameReason, Kind, Level, Method, Quantity, ResultSink as _, RunLog, RunMetadata, Shape, UtcNs, Verdict};
 use proptest::prelude::*;
 use report::{ParquetSink, Results, read_frames};
 
@@ -49,7 +49,7 @@ fn write(dir: &std::path::Path, sessions: &[(&[ResultRow], &[FrameRow])], metada
     for (results, frames) in sessions {
         sink.session(results.to_vec(), frames.to_vec()).unwrap();
     }
-    sink.finish(metadata).unwrap();
+    sink.finish(metadata, &RunLog::default()).unwrap();
     paths.map(|path| std::fs::read(path).unwrap())
 }
 

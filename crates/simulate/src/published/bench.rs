@@ -38,7 +38,7 @@ pub(super) fn sessions(published: &Published, camera: &Camera) -> Result<Vec<Ses
 }
 
 fn session(published: &Published, camera: &Camera, setup: &SetupRow, index: u32) -> Result<SessionPlan, SimulateError> {
-    let head = HeadPose { pitch_deg: setup.pitch_deg, range_mm: setup.range_mm };
+    let head = HeadPose { pitch_deg: setup.pitch_deg, roll_deg: 0.0, range_mm: setup.range_mm };
     let name = format!("bench-{}cm-{}deg", setup.height_cm, setup.pitch_deg);
     let view = view_from(camera, head, &name)?;
     let objects = published.plates.objects().into_iter().chain(published.bowl_heights.objects());

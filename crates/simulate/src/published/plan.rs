@@ -56,9 +56,9 @@ impl SessionPlan {
     }
 }
 
-/// The view of `camera` from a head's pose, without roll as in the paper.
+/// The view of `camera` from a head's pose.
 pub(super) fn view_from(camera: &Camera, head: HeadPose, place: &str) -> Result<View, SimulateError> {
-    let pose = Pose::new(head.pitch_deg.to_radians(), 0.0, head.range_mm)
+    let pose = Pose::new(head.pitch_deg.to_radians(), head.roll_deg.to_radians(), head.range_mm)
         .map_err(|source| SimulateError::Pose { place: place.to_owned(), source })?;
     Ok(View::new(*camera, pose))
 }

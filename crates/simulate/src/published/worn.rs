@@ -58,7 +58,7 @@ pub(super) fn sessions(published: &Published, camera: &Camera) -> Result<Vec<Ses
                 .iter()
                 .map(|&pitch_deg| {
                     let range_mm = (camera_height_mm / pitch_deg.to_radians().sin()).round();
-                    HeadPose { pitch_deg, range_mm }
+                    HeadPose { pitch_deg, roll_deg: 0.0, range_mm }
                 })
                 .collect();
             session(camera, size, height, &heads, index)

@@ -4,11 +4,17 @@ mod accelerometer;
 mod motion;
 mod packets;
 mod range;
+mod recording;
 
 pub use accelerometer::Accelerometer;
 pub use motion::{HeadPose, Motion};
 pub use packets::{PACKET_PERIOD_S, SAMPLES_PER_PACKET, encode_packet, packet_sample_times_s};
 pub use range::RangeSensor;
+pub use recording::Recording;
 
 /// Samples per second of both sensors' records.
 pub const SAMPLE_RATE_HZ: f64 = 128.0;
+
+/// How much further down the camera looks than the accelerometer's forward axis (`mount_pitch_deg` of the profile
+/// aim2-packets).
+pub const MOUNT_PITCH_DEG: f64 = 21.0;

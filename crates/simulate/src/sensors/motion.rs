@@ -5,6 +5,8 @@
 pub struct HeadPose {
     /// Depression of the camera's axis below the horizontal.
     pub pitch_deg: f64,
+    /// Roll about that axis, positive clockwise as the wearer sees it.
+    pub roll_deg: f64,
     /// Distance to the table along that axis.
     pub range_mm: f64,
 }
@@ -41,6 +43,7 @@ impl Motion {
         let between = |a: f64, b: f64| a + share * (b - a);
         Some(HeadPose {
             pitch_deg: between(before.1.pitch_deg, after.1.pitch_deg),
+            roll_deg: between(before.1.roll_deg, after.1.roll_deg),
             range_mm: between(before.1.range_mm, after.1.range_mm),
         })
     }

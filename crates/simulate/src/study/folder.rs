@@ -27,6 +27,15 @@ impl StudyFolder {
         Ok(Self { root: root.to_owned() })
     }
 
+    /// Makes a folder, with those above it. `relative` has forward slashes.
+    ///
+    /// # Errors
+    /// [`SimulateError::Io`].
+    pub fn make_folder(&self, relative: &str) -> Result<(), SimulateError> {
+        let path = self.root.join(relative);
+        fs::create_dir_all(&path).map_err(|source| io_error("create the folder", &path, source))
+    }
+
     /// Writes one file, with the folders above it. `relative` has forward slashes.
     ///
     /// # Errors

@@ -7,16 +7,16 @@ use anyhow::anyhow;
 use model::{RunMetadata, SessionStatus};
 use pipeline::{Checked, Study, SurveyOptions};
 
-use super::{PROGRAM, outcome, print, settings};
+use super::{PROGRAM, outcome, print, settings, stop_on_signals, survey_failure};
 use crate::args::CheckArgs;
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
 /// Checks the study, and tells what would be lost.
 pub fn run(args: &CheckArgs, bars: &Bars) -> Result<Outcome, Failure> {
-    let study = Study::load(&args.study, |spec| settings::apply(&args.settings, spec)).map_err(Failure::usage)?;
-    let options = SurveyOptions { jobs: args.jobs, program: PROGRAM.to_owned() };
-    let checked = pipeline::check(&study, &options, &bars.for_run())?;
+    let study = settings::load(&args.study, &args.settings)?;
+    let options = SurveyOptions { jobs: args.jobs, program: PROGRAM.to_owned(), stop: stop_on_signals()? };
+    let checked = pipeline::check(&study, &options, &bars.for_run()).map_err(survey_failure)?;
     if args.json {
         print(&(json::text(&study, &checked)? + "\n"))?;
     } else {
@@ -32,6 +32,7 @@ pub fn run(args: &CheckArgs, bars: &Bars) -> Result<Outcome, Failure> {
 fn results(study: &Study, checked: &Checked) -> ::report::Results {
     let metadata = RunMetadata {
         program: PROGRAM.to_owned(),
+        commit: None,
         study: study.spec.name.clone(),
         statement: None,
         settings: serde_json::Value::Null,

@@ -15,7 +15,7 @@ use pipeline::inspect::{Inspected, SessionFacts};
 use pipeline::{Study, SurveyOptions, inspect_file, inspect_study};
 use serde::Serialize;
 
-use super::{PROGRAM, outcome, print};
+use super::{PROGRAM, outcome, print, stop_on_signals, survey_failure};
 use crate::args::InspectArgs;
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
@@ -28,8 +28,9 @@ const MCAP_MAGIC: &[u8] = b"\x89MCAP0\r\n";
 /// Inspects, and tells what is there.
 pub fn run(args: &InspectArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let inspected = if args.path.is_dir() {
-        let options = SurveyOptions { jobs: args.jobs, program: PROGRAM.to_owned() };
-        inspect_study(&study(&args.path)?, &options, &bars.for_run())?
+        let study = study(&args.path)?;
+        let options = SurveyOptions { jobs: args.jobs, program: PROGRAM.to_owned(), stop: stop_on_signals()? };
+        inspect_study(&study, &options, &bars.for_run()).map_err(survey_failure)?
     } else {
         require_mcap(&args.path)?;
         let facts = inspect_file(&args.path, None)?;

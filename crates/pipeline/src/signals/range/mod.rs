@@ -7,12 +7,13 @@ mod levels;
 mod tests;
 
 use model::{UtcNs, median};
+use serde::{Deserialize, Serialize};
 
-use crate::study::SignalsSpec;
+use super::settings::ReadingSettings;
 use held::Reading;
 
 /// What the range sensor said around one image.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Range {
     /// Median of the valid readings, of the level that most of them say if there are two; none when there are too few, or
     /// when neither level has a clear majority.
@@ -41,7 +42,7 @@ const MIN_VALID_ONE_IN: usize = 3;
 const HELD_READINGS: usize = 25;
 
 /// Median of the readings that are ranges: between the limits, and no code.
-pub(super) fn of(samples: &[(UtcNs, f64)], spec: &SignalsSpec) -> Range {
+pub(super) fn of(samples: &[(UtcNs, f64)], spec: &ReadingSettings) -> Range {
     let is_range = |mm: f64| mm >= spec.range_min_mm && mm <= spec.range_max_mm && !NO_TARGET_MM.contains(&mm);
     let valid_samples = count(samples.iter().filter(|(_, mm)| is_range(*mm)).count());
     let held = held::readings(samples, spec.range_update_s);

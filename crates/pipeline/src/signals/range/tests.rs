@@ -9,7 +9,7 @@ fn of_readings(readings: &[f64]) -> Range {
 fn of_records(records: &[f64], step_s: f64) -> Range {
     let times = (0..).map(|i| UtcNs(0).plus_seconds(f64::from(i) * step_s));
     let samples: Vec<_> = times.zip(records.iter().copied()).collect();
-    of(&samples, &SignalsSpec::default())
+    of(&samples, &ReadingSettings::default())
 }
 
 /// 128 records in one second of a sensor that measures every `period_s`.
@@ -40,7 +40,7 @@ fn a_hand_in_a_third_of_the_window_does_not_move_it() {
 #[test]
 fn a_code_is_refused_even_where_the_limits_would_allow_it() {
     let samples: Vec<_> = (0..10).map(|i| (UtcNs(i * 50_000_000), 8190.0)).collect();
-    let spec = SignalsSpec { range_max_mm: 9000.0, ..SignalsSpec::default() };
+    let spec = ReadingSettings { range_max_mm: 9000.0, ..ReadingSettings::default() };
     assert_eq!(of(&samples, &spec).median_mm, None);
 }
 
@@ -59,7 +59,7 @@ fn too_few_readings_give_none() {
     // Nine records, but of two readings.
     let held = [580.0, 580.0, 580.0, 581.0, 581.0];
     assert_eq!(of_records(&held, 1.0 / 128.0).median_mm, None);
-    assert_eq!(of(&[], &SignalsSpec::default()).median_mm, None);
+    assert_eq!(of(&[], &ReadingSettings::default()).median_mm, None);
 }
 
 #[test]

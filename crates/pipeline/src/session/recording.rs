@@ -1,27 +1,45 @@
-//! A session's MCAP file: its images with their signals, and what is worth a note about them.
+//! A session's MCAP file: its images with what the sensors read around them, and what is worth a note about them.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use ingest::{SessionMetadata, SessionReader};
+use ingest::{DroppedImage, ImageEntry, SessionReader};
 use model::{Problem, Severity, Stage};
+use serde::{Deserialize, Serialize};
 
-use super::{Frame, lag};
-use crate::signals::{self, GravityCalibration, SignalSettings};
+use super::lag;
+use crate::signals::{self, GravityCalibration, Reading, ReadingSettings};
 use crate::study::{GravityCalibrate, Study};
 
-/// What the MCAP file of a session gives.
-pub(super) struct Read {
-    pub metadata: SessionMetadata,
-    pub frames: Vec<Frame>,
-    /// Worth knowing; nothing is lost by it.
-    pub notes: Vec<Problem>,
+/// What the signals stage gives: all that measuring needs to know of a recording, but the pictures.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Recording {
+    /// Images in the order of time.
+    pub images: Vec<ImageEntry>,
+    /// What the sensors read around each of them.
+    pub readings: Vec<Reading>,
+    /// Images of the card that could not be used.
+    pub dropped: Vec<DroppedImage>,
+    /// What was wrong with the card, and notes.
+    pub problems: Vec<Problem>,
+    /// SHA-256 of the card's files.
+    pub inputs_sha256: BTreeMap<String, String>,
+    /// Camera pitch minus sensor pitch as the device profile declares it.
+    pub mount_pitch_deg: f64,
 }
 
-pub(super) fn read(study: &Study, mcap: &Path, name: &str) -> Result<Read, Problem> {
+impl Recording {
+    /// Whether all files of the card could be read to their ends.
+    pub fn is_whole(&self) -> bool {
+        !self.inputs_sha256.values().any(|hash| hash == ingest::UNREADABLE)
+    }
+}
+
+pub(crate) fn read(study: &Study, mcap: &Path, name: &str) -> Result<Recording, Problem> {
     let refuse = |error: ingest::ReadError| Problem {
         severity: Severity::Loss,
         stage: Stage::Signals,
-        code: "bad_mcap".to_owned(),
+        code: BAD_MCAP.to_owned(),
         place: format!("mcap/{name}.mcap"),
         fact: error.to_string(),
         remedy: "run again with --force to ingest the card anew".to_owned(),
@@ -31,22 +49,27 @@ pub(super) fn read(study: &Study, mcap: &Path, name: &str) -> Result<Read, Probl
     let images = reader.images().map_err(refuse)?;
     let lag_s = study.spec.time.image_lag_s;
     let times: Vec<_> = images.iter().map(|image| image.time.plus_seconds(lag_s)).collect();
-    let settings = SignalSettings {
-        signals: study.spec.signals.clone(),
-        select: study.spec.select.clone(),
-        mount_pitch_rad: study.spec.mount.pitch_offset_deg.unwrap_or(metadata.mount_pitch_deg).to_radians(),
-    };
+    let settings = ReadingSettings::from(&study.spec.signals);
     let found = signals::at_images(&mut reader, &times, &settings).map_err(refuse)?;
-    let mut notes: Vec<Problem> =
-        found.calibration.and_then(|c| calibration_note(study, name, &c)).into_iter().collect();
+    let mut problems = metadata.problems.clone();
+    problems.extend(found.calibration.and_then(|calibration| calibration_note(study, name, &calibration)));
     // A survey has no pictures; the lag is a note, by which nothing is lost.
     if study.spec.time.estimate_lag && !metadata.is_survey() {
         let estimate = lag::estimate(&mut reader, &images).map_err(refuse)?;
-        notes.push(lag::note(name, &estimate, lag_s));
+        problems.push(lag::note(name, &estimate, lag_s));
     }
-    let frames = images.into_iter().zip(found.frames).map(|(image, signals)| Frame { image, signals }).collect();
-    Ok(Read { metadata, frames, notes })
+    Ok(Recording {
+        images,
+        readings: found.readings,
+        dropped: metadata.dropped_images,
+        problems,
+        inputs_sha256: metadata.inputs_sha256,
+        mount_pitch_deg: metadata.mount_pitch_deg,
+    })
 }
+
+/// The MCAP file in the work folder is not what was written there.
+pub(crate) const BAD_MCAP: &str = "bad_mcap";
 
 /// Logs the facts; a note where the study asked for the calibration to be applied.
 fn calibration_note(study: &Study, name: &str, calibration: &GravityCalibration) -> Option<Problem> {

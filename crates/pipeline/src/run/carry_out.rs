@@ -1,0 +1,86 @@
+//! Plans of sessions, made and carried out in parallel.
+
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
+use ingest::ByteBudget;
+
+use super::plan::{Common, SessionPlan};
+use super::tally::Tally;
+use super::worker::{Done, Worker};
+use super::{Halted, RunOptions};
+use crate::reporter::Reporter;
+use crate::sessions::in_parallel;
+use crate::study::SessionDir;
+use crate::work::WorkFolder;
+
+/// What all sessions of a run share.
+pub(super) struct All<'a> {
+    pub common: &'a Common<'a>,
+    pub work: &'a WorkFolder,
+    pub options: &'a RunOptions,
+    pub reporter: &'a dyn Reporter,
+}
+
+impl<'a> All<'a> {
+    /// Looks at sessions. What an earlier run kept does not count when all is to be done again.
+    pub fn plan(&self, dirs: &[&'a SessionDir]) -> Result<Vec<SessionPlan<'a>>, Halted> {
+        let kept = if self.options.force { BTreeMap::new() } else { self.work.state.all()? };
+        let plans = in_parallel(dirs, self.options.jobs, |dir| {
+            let kept = kept.get(&dir.name).cloned().unwrap_or_default();
+            self.common.plan(dir, kept, Some(&self.work.state), &self.work.mcap(&dir.name))
+        })?;
+        Ok(plans)
+    }
+
+    /// Does what the plans say. What is done is kept, whatever comes after.
+    pub fn carry_out(&self, plans: &[SessionPlan<'a>]) -> Result<Tally, Halted> {
+        let (current, to_do): (Vec<_>, Vec<_>) = plans.iter().partition(|plan| plan.current.all());
+        let stop = &self.options.stop;
+        let budget = ByteBudget::new(self.options.image_memory_bytes);
+        let worker = Worker {
+            common: self.common,
+            work: self.work,
+            force: self.options.force,
+            stop,
+            budget: &budget,
+            reporter: self.reporter,
+        };
+        let halted: Mutex<Option<Halted>> = Mutex::new(None);
+        let done = in_parallel(&to_do, self.options.jobs, |plan| {
+            if stop.is_set() {
+                return None;
+            }
+            let done = worker.run(plan).and_then(|done| self.unless_failed(done));
+            done.unwrap_or_else(|reason| {
+                stop.set();
+                halted.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(reason);
+                None
+            })
+        })?;
+        let done: Vec<Done> = done.into_iter().flatten().collect();
+        if let Some(halted) = halted.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            return Err(halted);
+        }
+        match stop.signal() {
+            Some(signal) => {
+                let (done, sessions) = (current.len() + done.len(), plans.len());
+                Err(Halted::Stopped { signal, done, sessions })
+            }
+            None => Ok(Tally::new(&current, done)),
+        }
+    }
+
+    /// Tells that a session is done; an error where it failed and the run is to stop then.
+    fn unless_failed(&self, done: Option<Done>) -> Result<Option<Done>, Halted> {
+        let Some(done) = done else { return Ok(None) };
+        self.reporter.done(&done.status);
+        match done.status.problems.first() {
+            Some(problem) if done.status.failed && self.options.fail_fast => {
+                let session = done.status.session.clone();
+                Err(Halted::FailFast { session, problem: Box::new(problem.clone()) })
+            }
+            _ => Ok(Some(done)),
+        }
+    }
+}

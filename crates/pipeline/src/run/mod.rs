@@ -1,0 +1,92 @@
+//! All sessions of a study, in parallel, into a sink; what an earlier run has done is not done again.
+
+mod carry_out;
+mod error;
+mod keys;
+mod options;
+mod plan;
+mod status;
+mod tally;
+mod worker;
+mod write;
+
+use std::time::Instant;
+
+use jiff::Timestamp;
+use model::{ResultSink, RunLog, SessionStatus, StageLog};
+
+use crate::reporter::{Reporter, Totals};
+use crate::study::Study;
+use crate::work::WorkFolder;
+use carry_out::All;
+pub use error::{Halted, RunError};
+pub use options::RunOptions;
+use plan::Common;
+pub use plan::Current;
+pub use status::{SessionState, StudyState, status};
+use write::Writing;
+
+/// What a run did.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ran {
+    /// How each session fared, in the order of their names; those of earlier runs included.
+    pub sessions: Vec<SessionStatus>,
+    /// Sessions for which something was done in this run.
+    pub done: usize,
+    /// Whether results were written; not when they are what they would be.
+    pub wrote: bool,
+    /// Sessions and seconds by stage.
+    pub stages: Vec<StageLog>,
+    /// How long it took.
+    pub seconds: f64,
+}
+
+/// Runs every session of a study as far as that is needed, `jobs` at a time, and hands the rows to `sink` in the order of
+/// the sessions' names. The rows are the same whether they were made now or kept from an earlier run.
+///
+/// # Errors
+/// [`RunError`] for what concerns the run as a whole; what was done until then is kept. A session that fails is in the
+/// statuses returned.
+pub fn run<S: ResultSink>(
+    study: &Study,
+    options: &RunOptions,
+    reporter: &dyn Reporter,
+    sink: &mut S,
+) -> Result<Ran, RunError<S::Error>> {
+    let (started_utc, start) = (Timestamp::now().to_string(), Instant::now());
+    let work = WorkFolder::open(&options.work_dir, &options.program).map_err(Halted::from)?;
+    if options.prune {
+        let names: Vec<&str> = study.sessions.iter().map(|dir| dir.name.as_str()).collect();
+        work.prune(&names).map_err(Halted::from)?;
+    }
+    let study_inputs = write::study_inputs(study)?;
+    let program = options.program_and_commit();
+    let common = Common::new(study, &program)?;
+    let all = All { common: &common, work: &work, options, reporter };
+
+    let plans = all.plan(&study.sessions.iter().collect::<Vec<_>>())?;
+    reporter.begin(&Totals {
+        sessions: plans.len(),
+        kept: plans.iter().filter(|plan| plan.current.all()).count(),
+        bytes: Some(plans.iter().map(|plan| plan.bytes_to_read).sum()),
+    });
+    let mut tally = all.carry_out(&plans)?;
+    let writing = Writing { study, options, work: &work, study_inputs };
+    let mut wrote = false;
+    if !writing.is_done(&sink.files())? {
+        let damaged = writing.damaged(&plans)?;
+        if !damaged.is_empty() {
+            tally.add(all.carry_out(&all.plan(&damaged)?)?);
+        }
+        let log = RunLog { started_utc, ..tally.log(options) };
+        writing.write(&tally.statuses, log, start, sink)?;
+        wrote = true;
+    }
+    Ok(Ran {
+        done: tally.logs.len(),
+        wrote,
+        stages: tally.stages(),
+        sessions: tally.statuses.into_values().collect(),
+        seconds: start.elapsed().as_secs_f64(),
+    })
+}

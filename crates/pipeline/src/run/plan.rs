@@ -1,0 +1,126 @@
+//! What a run has to do: every session looked at, no file of a card read.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use ingest::{CardLook, Fingerprint};
+use model::{Problem, SessionStatus, Stage};
+
+use super::Halted;
+use super::keys::{self, MeasureParts};
+use crate::inputs::sha256_of_file;
+use crate::session::Prepared;
+use crate::study::{SessionDir, Study};
+use crate::work::{Kept, KeptStage, State};
+
+/// The stages of a session that need not be done again.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Current {
+    /// The recording is that of the card.
+    pub ingest: bool,
+    /// The readings are that recording's, under these settings.
+    pub signals: bool,
+    /// The sizes are those of these readings and marks, under these settings.
+    pub measure: bool,
+}
+
+impl Current {
+    /// Whether nothing is to be done.
+    #[must_use]
+    pub fn all(self) -> bool {
+        self.ingest && self.signals && self.measure
+    }
+}
+
+/// What is to be done for a session.
+pub(crate) struct SessionPlan<'a> {
+    pub dir: &'a SessionDir,
+    pub current: Current,
+    /// Bytes of the card, as far as they have to be read.
+    pub bytes_to_read: u64,
+    pub kept: Kept,
+}
+
+/// What all sessions have in common.
+pub(crate) struct Common<'a> {
+    pub study: &'a Study,
+    pub program: &'a str,
+    /// SHA-256 of objects.csv.
+    objects_csv: String,
+    pub look: CardLook,
+}
+
+impl<'a> Common<'a> {
+    pub fn new(study: &'a Study, program: &'a str) -> Result<Self, Halted> {
+        let objects = study.dir.join("objects.csv");
+        let objects_csv = sha256_of_file(&objects).map_err(|source| Halted::Input { path: objects, source })?;
+        let look = CardLook::new(&study.profile).map_err(|error| Halted::Ingest { error: Box::new(error) })?;
+        Ok(Self { study, program, objects_csv, look })
+    }
+
+    pub fn measure_parts<'p>(
+        &'p self,
+        dir: &'p SessionDir,
+        prepared: &'p Prepared,
+        signals_key: &'p str,
+    ) -> MeasureParts<'p> {
+        MeasureParts::new(self.study, dir, prepared, self.program, signals_key, &self.objects_csv)
+    }
+
+    /// Looks at a session. `kept` is what the state has of it.
+    pub fn plan(&self, dir: &'a SessionDir, kept: Kept, state: Option<&State>, mcap: &Path) -> SessionPlan<'a> {
+        let prepared = Prepared::new(self.study, dir, self.program);
+        let card = prepared.as_ref().ok().and_then(|prepared| self.look.fingerprint(&prepared.source).ok());
+        let current = match (&prepared, &card) {
+            (Ok(prepared), Some(card)) => self.current(dir, prepared, card, &kept, state, mcap).unwrap_or_default(),
+            _ => Current::default(),
+        };
+        let bytes = card.map_or(0, |card| card.bytes());
+        SessionPlan { dir, current, bytes_to_read: if current.ingest { 0 } else { bytes }, kept }
+    }
+
+    fn current(
+        &self,
+        dir: &SessionDir,
+        prepared: &Prepared,
+        card: &Fingerprint,
+        kept: &Kept,
+        state: Option<&State>,
+        mcap: &Path,
+    ) -> Option<Current> {
+        let mut current = Current::default();
+        let ingest = kept.ingest.as_ref().filter(|stage| stage.fingerprint.as_ref() == Some(&card.hex()))?;
+        current.ingest = recording_is_there(&dir.name, ingest, state, mcap);
+        let signals_key = keys::signals_key(self.study, self.program, &ingest.key).ok()?;
+        current.signals = kept.signals.as_ref().is_some_and(|stage| stage.key == signals_key);
+        let measured = kept.measure.as_ref().filter(|stage| current.signals && !stage.key.is_empty());
+        let marks = self.measure_parts(dir, prepared, &signals_key).fingerprint(dir).ok()?;
+        current.measure = measured.is_some_and(|stage| stage.fingerprint.as_ref() == Some(&marks.hex()));
+        Some(current)
+    }
+}
+
+/// Whether the MCAP file is as ingest left it, or at least whole and of that key.
+fn recording_is_there(session: &str, ingest: &KeptStage, state: Option<&State>, mcap: &Path) -> bool {
+    let now = of_recording(mcap).hex();
+    let then = state.and_then(|state| state.output(session, Stage::Ingest).ok().flatten());
+    then == Some(now) || ingest::ingest_is_current(mcap, &ingest.key)
+}
+
+/// What the system says of an MCAP file.
+pub(super) fn of_recording(mcap: &Path) -> Fingerprint {
+    let mut fingerprint = Fingerprint::default();
+    fingerprint.add_file("mcap", mcap);
+    fingerprint
+}
+
+/// How sessions fared for which nothing is to be done, by name.
+pub(super) fn statuses(current: &[&SessionPlan<'_>]) -> BTreeMap<String, SessionStatus> {
+    let named = current.iter().filter_map(|plan| Some((plan.dir.name.clone(), plan.kept.status.clone()?)));
+    named.collect()
+}
+
+/// Why a session cannot be prepared: the same each time it is asked.
+pub(super) fn prepare(common: &Common<'_>, dir: &SessionDir) -> Result<Prepared, Problem> {
+    Prepared::new(common.study, dir, common.program)
+}

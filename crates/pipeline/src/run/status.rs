@@ -1,0 +1,73 @@
+//! What a run would find done, and what it would do.
+
+use std::path::Path;
+
+use ingest::SessionReader;
+use model::SessionStatus;
+
+use super::Halted;
+use super::options::program_and_commit;
+use super::plan::{Common, Current, prepare};
+use crate::sessions::in_parallel;
+use crate::study::{SessionDir, Study};
+use crate::work::{Holder, Kept, State, recording_of, state_file};
+
+/// The state of a study in a work folder.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StudyState {
+    /// The sessions of the study, by name.
+    pub sessions: Vec<SessionState>,
+    /// Sessions that the work folder holds and the study has no more.
+    pub removed: Vec<String>,
+    /// The run at work there now.
+    pub holder: Option<Holder>,
+}
+
+/// The state of a session.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SessionState {
+    /// Its name.
+    pub session: String,
+    /// What a run would not do again.
+    pub current: Current,
+    /// Bytes of its card that a run would read.
+    pub bytes_to_read: u64,
+    /// Whether the recording has the calibration of an earlier camera. Sizes do not depend on it; viewers show it.
+    pub has_old_calibration: bool,
+    /// How it fared when it was last measured.
+    pub status: Option<SessionStatus>,
+    /// When that was, UTC.
+    pub measured_utc: Option<String>,
+}
+
+/// Looks at a study and a work folder, beside a run if one is at work. Reads no card and changes nothing.
+///
+/// # Errors
+/// [`Halted`] when the state of the work folder cannot be read.
+pub fn status(study: &Study, work_dir: &Path, program: &str, commit: Option<&str>) -> Result<StudyState, Halted> {
+    let state = State::open_to_look(&state_file(work_dir))?;
+    let mut kept = state.as_ref().map(State::all).transpose()?.unwrap_or_default();
+    let program = program_and_commit(program, commit);
+    let common = Common::new(study, &program)?;
+    let dirs: Vec<_> = study.sessions.iter().map(|dir| (dir, kept.remove(&dir.name).unwrap_or_default())).collect();
+    let sessions = in_parallel(&dirs, None, |(dir, kept): &(_, Kept)| {
+        let mcap = recording_of(work_dir, &dir.name);
+        let plan = common.plan(dir, kept.clone(), state.as_ref(), &mcap);
+        SessionState {
+            session: dir.name.clone(),
+            current: plan.current,
+            bytes_to_read: plan.bytes_to_read,
+            has_old_calibration: plan.current.ingest && has_old_calibration(&common, dir, &mcap),
+            status: plan.kept.status,
+            measured_utc: plan.kept.measure.map(|stage| stage.made_utc),
+        }
+    })?;
+    Ok(StudyState { sessions, removed: kept.into_keys().collect(), holder: Holder::of(work_dir) })
+}
+
+fn has_old_calibration(common: &Common<'_>, dir: &SessionDir, mcap: &Path) -> bool {
+    match (prepare(common, dir), SessionReader::open(mcap)) {
+        (Ok(prepared), Ok(reader)) => reader.metadata().camera != prepared.source.camera_spec,
+        _ => false,
+    }
+}

@@ -1,0 +1,62 @@
+//! What was done, counted.
+
+use std::collections::BTreeMap;
+
+use model::{RunLog, SessionLog, SessionStatus, Stage, StageLog};
+
+use super::RunOptions;
+use super::plan::{SessionPlan, statuses};
+use super::worker::Done;
+use crate::sessions::jobs_or_default;
+
+/// What a run did.
+pub(super) struct Tally {
+    /// How each session fared, those of earlier runs included.
+    pub statuses: BTreeMap<String, SessionStatus>,
+    /// What was done, by session.
+    pub logs: Vec<SessionLog>,
+}
+
+impl Tally {
+    /// `current`: the sessions for which nothing was done.
+    pub fn new(current: &[&SessionPlan<'_>], done: Vec<Done>) -> Self {
+        let mut tally = Self { statuses: statuses(current), logs: Vec::new() };
+        for Done { status, log } in done {
+            tally.statuses.insert(status.session.clone(), status);
+            tally.logs.extend(Some(log).filter(|log| log.ingest_s.or(log.signals_s).or(log.measure_s).is_some()));
+        }
+        tally
+    }
+
+    /// Adds what was done later.
+    pub fn add(&mut self, later: Self) {
+        self.statuses.extend(later.statuses);
+        self.logs.extend(later.logs);
+    }
+
+    /// Sessions and seconds by stage.
+    pub fn stages(&self) -> Vec<StageLog> {
+        let of = |stage, seconds: fn(&SessionLog) -> Option<f64>| {
+            let all: Vec<f64> = self.logs.iter().filter_map(seconds).collect();
+            StageLog { stage, done: all.len(), kept: self.statuses.len() - all.len(), seconds: all.iter().sum() }
+        };
+        vec![
+            of(Stage::Ingest, |log| log.ingest_s),
+            of(Stage::Signals, |log| log.signals_s),
+            of(Stage::Measure, |log| log.measure_s),
+        ]
+    }
+
+    /// For the file beside the results.
+    pub fn log(&self, options: &RunOptions) -> RunLog {
+        let mut sessions = self.logs.clone();
+        sessions.sort_by(|a, b| a.session.cmp(&b.session));
+        RunLog {
+            jobs: jobs_or_default(options.jobs).get(),
+            image_memory_bytes: options.image_memory_bytes,
+            stages: self.stages(),
+            sessions,
+            ..RunLog::default()
+        }
+    }
+}

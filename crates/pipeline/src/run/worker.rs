@@ -1,0 +1,280 @@
+//! One session through its stages: what is kept is used, what is done is kept at once.
+
+use std::cell::Cell;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use ingest::{ByteBudget, IngestError, IngestProgress, Ingested, SessionSource};
+use model::{Problem, SessionLog, SessionStatus, Severity, Stage};
+
+use super::plan::{Common, SessionPlan, of_recording, prepare};
+use super::{Halted, keys};
+use crate::inputs::sha256_of_bytes;
+use crate::reporter::Reporter;
+use crate::session::{BAD_MCAP, Prepared, Recording, failed, ingest_problem, measure, read_recording, tidy};
+use crate::sessions::unless_panicking;
+use crate::stop::Stop;
+use crate::work::{KeptStage, StageOutput, WorkError, WorkFolder};
+
+/// What the sessions at work share.
+pub(super) struct Worker<'a> {
+    pub common: &'a Common<'a>,
+    pub work: &'a WorkFolder,
+    pub force: bool,
+    pub stop: &'a Stop,
+    pub budget: &'a ByteBudget,
+    pub reporter: &'a dyn Reporter,
+}
+
+/// What was done of a session.
+pub(super) struct Done {
+    pub status: SessionStatus,
+    pub log: SessionLog,
+}
+
+/// Why a session does not go on.
+enum Trouble {
+    Session(Box<Problem>),
+    Halt(Halted),
+    Stopped,
+}
+
+impl From<Problem> for Trouble {
+    fn from(problem: Problem) -> Self {
+        Self::Session(Box::new(problem))
+    }
+}
+
+impl From<WorkError> for Trouble {
+    fn from(error: WorkError) -> Self {
+        Self::Halt(error.into())
+    }
+}
+
+impl From<serde_json::Error> for Trouble {
+    fn from(error: serde_json::Error) -> Self {
+        Self::Halt(WorkError::from(error).into())
+    }
+}
+
+impl Worker<'_> {
+    /// Runs a session as far as that is needed; none when it was stopped. A session that fails, or panics, has a status and
+    /// a ledger; it is tried again the next time.
+    pub fn run(&self, plan: &SessionPlan<'_>) -> Result<Option<Done>, Halted> {
+        let stage = Cell::new(Stage::Study);
+        let mut log = SessionLog { session: plan.dir.name.clone(), ..SessionLog::default() };
+        let outcome = unless_panicking(plan.dir, &stage, || self.stages(plan, &stage, &mut log));
+        let outcome = outcome.unwrap_or_else(|problem| Err(problem.into()));
+        match outcome {
+            Ok(status) => Ok(Some(Done { status, log })),
+            Err(Trouble::Session(problem)) => Ok(Some(Done { status: self.keep_failed(plan, *problem)?, log })),
+            Err(Trouble::Halt(halted)) => Err(halted),
+            Err(Trouble::Stopped) => Ok(None),
+        }
+    }
+
+    fn stages(
+        &self,
+        plan: &SessionPlan<'_>,
+        stage: &Cell<Stage>,
+        log: &mut SessionLog,
+    ) -> Result<SessionStatus, Trouble> {
+        let prepared = prepare(self.common, plan.dir)?;
+        self.begin(plan, stage, Stage::Ingest);
+        let (ingest_key, changed) = self.ingest(plan, &prepared, log)?;
+        let signals_key = keys::signals_key(self.common.study, self.common.program, &ingest_key)?;
+        let parts = self.common.measure_parts(plan.dir, &prepared, &signals_key);
+        let fingerprint = parts.fingerprint(plan.dir)?.settled();
+        let measure_key = parts.key(plan.dir)?;
+        let is_kept = |kept: &Option<_>, key: &str| {
+            kept.as_ref().is_some_and(|stage: &KeptStage| stage.key == key) && !self.force
+        };
+        let signals_kept = is_kept(&plan.kept.signals, &signals_key);
+        if changed.is_none()
+            && signals_kept
+            && is_kept(&plan.kept.measure, &measure_key)
+            && let Some(status) = plan.kept.status.clone()
+        {
+            self.work.state.touch(&plan.dir.name, Stage::Measure, fingerprint.as_deref())?;
+            return Ok(status);
+        }
+        self.begin(plan, stage, Stage::Signals);
+        let recording = self.signals(plan, &prepared, &signals_key, signals_kept, log)?;
+        self.begin(plan, stage, Stage::Measure);
+        let is_whole = recording.is_whole() && changed.is_none();
+        if !is_whole {
+            self.work.state.touch(&plan.dir.name, Stage::Ingest, None)?;
+        }
+        let start = Instant::now();
+        let mut output = measure(self.common.study, plan.dir, &prepared, recording, self.reporter);
+        output.status.problems.extend(changed);
+        tidy(&mut output, self.common.study, &self.work.mcap_dir);
+        log.measure_s = Some(start.elapsed().as_secs_f64());
+        let kept = StageOutput {
+            key: if is_whole { &measure_key } else { "" },
+            fingerprint,
+            seconds: start.elapsed().as_secs_f64(),
+            output: &serde_json::to_string(&output)?,
+            status: Some(&output.status),
+        };
+        self.work.state.keep(&plan.dir.name, Stage::Measure, &kept)?;
+        Ok(output.status)
+    }
+
+    fn begin(&self, plan: &SessionPlan<'_>, stage: &Cell<Stage>, begun: Stage) {
+        stage.set(begun);
+        self.reporter.stage(&plan.dir.name, begun);
+        #[cfg(debug_assertions)]
+        crate::fault::at(&plan.dir.name, begun);
+    }
+
+    /// Key of the recording, and what is wrong if the card changed while it was read.
+    fn ingest(
+        &self,
+        plan: &SessionPlan<'_>,
+        prepared: &Prepared,
+        log: &mut SessionLog,
+    ) -> Result<(String, Option<Problem>), Trouble> {
+        if let (true, Some(kept)) = (plan.current.ingest, &plan.kept.ingest) {
+            return Ok((kept.key.clone(), None));
+        }
+        let source = &prepared.source;
+        let refuse = |error: IngestError| of_ingest(&plan.dir.name, error);
+        let start = Instant::now();
+        let before = self.common.look.fingerprint(source).map_err(refuse)?;
+        let is_mixture = plan.kept.ingest.as_ref().is_some_and(|kept| kept.key.is_empty());
+        let ingested = self.ingest_card(source, self.force || is_mixture)?;
+        let after = self.common.look.fingerprint(source).map_err(refuse)?;
+        let seconds = start.elapsed().as_secs_f64();
+        // A card that was only hashed, and is what it was, was not ingested.
+        log.ingest_s = matches!(ingested, Ingested::Fresh(_)).then_some(seconds);
+        let changed = (before.hex() != after.hex()).then(|| changed_while_read(&plan.dir.name));
+        match &changed {
+            None => self.keep_recording(plan, ingested.key(), before.settled(), seconds)?,
+            Some(_) => self.keep_recording(plan, "", None, seconds)?,
+        }
+        Ok((ingested.key().to_owned(), changed))
+    }
+
+    fn keep_recording(
+        &self,
+        plan: &SessionPlan<'_>,
+        key: &str,
+        fingerprint: Option<String>,
+        seconds: f64,
+    ) -> Result<(), WorkError> {
+        let output = of_recording(&self.mcap(plan)).hex();
+        let kept = StageOutput { key, fingerprint, seconds, output: &output, status: None };
+        self.work.state.keep(&plan.dir.name, Stage::Ingest, &kept).map(|_| ())
+    }
+
+    fn ingest_card(&self, source: &SessionSource, anew: bool) -> Result<Ingested, Trouble> {
+        let mcap = self.work.mcap(&source.session);
+        let progress =
+            CardProgress { session: &source.session, reporter: self.reporter, stop: self.stop, budget: self.budget };
+        let ingested = if anew {
+            ingest::ingest_session(source, &mcap, &progress).map(|summary| Ingested::Fresh(Box::new(summary)))
+        } else {
+            ingest::ingest_if_changed(source, &mcap, &progress)
+        };
+        ingested.map_err(|error| of_ingest(&source.session, error))
+    }
+
+    /// The readings: those kept, or made from the recording. A recording that is damaged is made again, once.
+    fn signals(
+        &self,
+        plan: &SessionPlan<'_>,
+        prepared: &Prepared,
+        key: &str,
+        is_kept: bool,
+        log: &mut SessionLog,
+    ) -> Result<Recording, Trouble> {
+        let session = &plan.dir.name;
+        if is_kept
+            && let Some(text) = self.work.state.output(session, Stage::Signals)?
+            && let Ok(recording) = serde_json::from_str(&text)
+        {
+            return Ok(recording);
+        }
+        let start = Instant::now();
+        let read = || read_recording(self.common.study, &self.mcap(plan), session);
+        let recording = match read() {
+            Err(problem) if problem.code == BAD_MCAP => {
+                tracing::warn!(session, "{}; its card is ingested again", problem.fact);
+                let ingested = self.ingest_card(&prepared.source, true)?;
+                self.keep_recording(plan, ingested.key(), None, start.elapsed().as_secs_f64())?;
+                read()?
+            }
+            other => other?,
+        };
+        let seconds = start.elapsed().as_secs_f64();
+        log.signals_s = Some(seconds);
+        let output = serde_json::to_string(&recording)?;
+        let kept = StageOutput { key, fingerprint: None, seconds, output: &output, status: None };
+        self.work.state.keep(session, Stage::Signals, &kept)?;
+        Ok(recording)
+    }
+
+    fn keep_failed(&self, plan: &SessionPlan<'_>, problem: Problem) -> Result<SessionStatus, Halted> {
+        let mut output = failed(self.common.study, plan.dir, problem);
+        tidy(&mut output, self.common.study, &self.work.mcap_dir);
+        let text = serde_json::to_string(&output).map_err(WorkError::from)?;
+        let failed_likewise =
+            |kept: &KeptStage| kept.key.is_empty() && kept.output_sha256 == sha256_of_bytes(text.as_bytes());
+        if plan.kept.measure.as_ref().is_some_and(failed_likewise) {
+            return Ok(output.status); // nothing new to be made durable
+        }
+        let kept =
+            StageOutput { key: "", fingerprint: None, seconds: 0.0, output: &text, status: Some(&output.status) };
+        self.work.state.keep(&plan.dir.name, Stage::Measure, &kept)?;
+        Ok(output.status)
+    }
+
+    fn mcap(&self, plan: &SessionPlan<'_>) -> PathBuf {
+        self.work.mcap(&plan.dir.name)
+    }
+}
+
+fn of_ingest(session: &str, error: IngestError) -> Trouble {
+    match error {
+        IngestError::Stopped => Trouble::Stopped,
+        error if error.is_of_all_sessions() => Trouble::Halt(Halted::Ingest { error: Box::new(error) }),
+        error => ingest_problem(session, &error).into(),
+    }
+}
+
+fn changed_while_read(session: &str) -> Problem {
+    Problem {
+        severity: Severity::Loss,
+        stage: Stage::Ingest,
+        code: "card_changed".to_owned(),
+        place: format!("cards/{session}"),
+        fact: "the card's files changed while they were read; what was read may be a mixture".to_owned(),
+        remedy: "wait until the card is copied whole, and run again; the session is then read anew".to_owned(),
+    }
+}
+
+struct CardProgress<'a> {
+    session: &'a str,
+    reporter: &'a dyn Reporter,
+    stop: &'a Stop,
+    budget: &'a ByteBudget,
+}
+
+impl IngestProgress for CardProgress<'_> {
+    fn begin(&self, bytes: u64) {
+        self.reporter.bytes_to_read(self.session, bytes);
+    }
+
+    fn advance(&self, bytes: u64) {
+        self.reporter.bytes_read(self.session, bytes);
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop.is_set()
+    }
+
+    fn image_budget(&self) -> Option<&ByteBudget> {
+        Some(self.budget)
+    }
+}

@@ -1,0 +1,73 @@
+//! What is known of a session before its card is read.
+
+use std::path::Path;
+
+use ingest::SessionSource;
+use model::{Camera, CameraSpec, Problem, Severity, Stage};
+
+use super::problems::{MARKS_CAMERA_FACT, bad_camera, link_out_of_study, missing_card};
+use super::relative;
+use crate::inputs::sha256_of_file;
+use crate::signals::PoseSettings;
+use crate::study::{SessionDir, SessionSpec, Study};
+
+/// What a session is made from, settings resolved.
+pub(crate) struct Prepared {
+    /// session.toml.
+    pub spec: SessionSpec,
+    /// What its card is ingested from.
+    pub source: SessionSource,
+    /// Camera of the pictures that were marked.
+    pub marks_camera: (CameraSpec, Camera),
+    /// Path and hash of session.toml, if there is one.
+    pub session_toml_sha256: Option<(String, String)>,
+}
+
+impl Prepared {
+    pub fn new(study: &Study, dir: &SessionDir, program: &str) -> Result<Self, Problem> {
+        let card = dir.card.as_deref().ok_or_else(|| missing_card(dir))?;
+        if !study.holds(card) {
+            return Err(link_out_of_study(dir));
+        }
+        let (spec, session_toml_sha256) = session_spec(study, card)?;
+        let camera = study.camera_of_session(&spec).map_err(|error| bad_camera(dir, error.to_string()))?;
+        let marks_camera = study.marks_camera_of_session(&spec, &camera);
+        let marks_camera = marks_camera.map_err(|error| bad_camera(dir, error.to_string()))?;
+        let marks_camera = marks_camera.ok_or_else(|| bad_camera(dir, MARKS_CAMERA_FACT.to_owned()))?;
+        let source = SessionSource {
+            session: dir.name.clone(),
+            card_dir: card.to_owned(),
+            profile: study.profile.clone(),
+            camera_spec: camera.0,
+            time_zone: study.time_zone.clone(),
+            clock_zero_utc: spec.clock_zero_utc,
+            program: program.to_owned(),
+        };
+        Ok(Self { spec, source, marks_camera, session_toml_sha256 })
+    }
+
+    /// From readings to pose and choice; `mount_pitch_deg` is the device profile's.
+    pub fn pose_settings(&self, study: &Study, mount_pitch_deg: f64) -> PoseSettings {
+        let mount_pitch_deg = study.spec.mount.pitch_offset_deg.unwrap_or(mount_pitch_deg);
+        PoseSettings::new(&study.spec.signals, &study.spec.select, mount_pitch_deg.to_radians())
+    }
+}
+
+fn session_spec(study: &Study, card: &Path) -> Result<(SessionSpec, Option<(String, String)>), Problem> {
+    let path = card.join("session.toml");
+    if !path.is_file() {
+        return Ok((SessionSpec::default(), None));
+    }
+    let place = relative(study, &path);
+    let refuse = |fact: String| Problem {
+        severity: Severity::Loss,
+        stage: Stage::Study,
+        code: "bad_session_toml".to_owned(),
+        place: place.clone(),
+        fact,
+        remedy: "correct the file (docs/study.md)".to_owned(),
+    };
+    let hash = sha256_of_file(&path).map_err(|error| refuse(error.to_string()))?;
+    let spec = ingest::config::read_toml(&path).map_err(|error| refuse(error.to_string()))?;
+    Ok((spec, Some((place, hash))))
+}

@@ -1,0 +1,61 @@
+//! What can be wrong with a work folder.
+
+use std::path::PathBuf;
+
+/// A work folder that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum WorkError {
+    /// The folder cannot be made.
+    #[error("cannot make the work folder: {source}; --work names another: {}", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Another run is at work there.
+    #[error("another run is at work in this folder: {holder}; wait for it to end, or give --work another folder: {}", path.display())]
+    Held {
+        /// The lock.
+        path: PathBuf,
+        /// Who holds it, as it told.
+        holder: String,
+    },
+    /// The lock cannot be made.
+    #[error("cannot lock the work folder: {source}; check permissions, or give --work another folder: {}", path.display())]
+    Lock {
+        /// The lock.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The state of a newer program.
+    #[error("the work folder is of a newer version of this program (state version {got}, expected {expected}); update, or give --work another folder: {}", path.display())]
+    Newer {
+        /// The state file.
+        path: PathBuf,
+        /// Version that this program writes.
+        expected: i64,
+        /// Version found.
+        got: i64,
+    },
+    /// The state file is no state, and a new one is none either.
+    #[error("{why}; remove it, or give --work another folder: {}", path.display())]
+    Unusable {
+        /// The state file.
+        path: PathBuf,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// The state file cannot be read or written.
+    #[error("cannot use the state of the work folder: {source}; check free space and permissions, or give --work another folder: {}", path.display())]
+    State {
+        /// The state file.
+        path: PathBuf,
+        /// What SQLite said.
+        source: rusqlite::Error,
+    },
+    /// What a stage gave does not go into text: a defect of the program.
+    #[error("cannot keep what a stage gave: {0}; please report this as a bug")]
+    Text(#[from] serde_json::Error),
+}

@@ -1,0 +1,83 @@
+//! The work folder: what can be made anew, kept so that it need not be.
+//!
+//! | | |
+//! |---|---|
+//! | `state.sqlite` | which stage of which session was made from what, and what came out ([`state`]) |
+//! | `mcap/SESSION.mcap` | the recording of a session |
+//! | `lock` | held by the run at work ([`lock`]) |
+
+mod error;
+mod lock;
+mod output;
+mod state;
+
+use std::path::{Path, PathBuf};
+
+pub use error::WorkError;
+pub use lock::Holder;
+use lock::Lock;
+pub(crate) use output::{Kept, KeptStage};
+pub(crate) use state::{StageOutput, State, Written};
+
+/// The work folder of a run, held by this process alone.
+pub(crate) struct WorkFolder {
+    pub state: State,
+    pub mcap_dir: PathBuf,
+    _lock: Lock,
+}
+
+impl WorkFolder {
+    /// Makes the folder if need be, and takes its lock. What a killed run left half-written is removed; a state file that
+    /// cannot be read is set aside, and all is made anew.
+    pub fn open(dir: &Path, program: &str) -> Result<Self, WorkError> {
+        let mcap_dir = dir.join("mcap");
+        let whole = std::fs::create_dir_all(&mcap_dir).and_then(|()| mcap_dir.canonicalize());
+        let mcap_dir = whole.map_err(|source| WorkError::Folder { path: mcap_dir, source })?;
+        let lock = Lock::take(&dir.join("lock"), program)?;
+        remove_partial(&mcap_dir);
+        Ok(Self { state: State::open(&state_file(dir))?, mcap_dir, _lock: lock })
+    }
+
+    /// Where the recording of a session is.
+    pub fn mcap(&self, session: &str) -> PathBuf {
+        self.mcap_dir.join(format!("{session}.mcap"))
+    }
+}
+
+impl WorkFolder {
+    /// Deletes what is there of other sessions than these.
+    pub fn prune(&self, sessions: &[&str]) -> Result<(), WorkError> {
+        for session in self.state.all()?.into_keys().filter(|session| !sessions.contains(&session.as_str())) {
+            let mcap = self.mcap(&session);
+            match std::fs::remove_file(&mcap) {
+                Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(WorkError::Folder { path: mcap, source });
+                }
+                _ => self.state.forget(&session)?,
+            }
+            tracing::info!(session, "no longer in the study: deleted from the work folder");
+        }
+        Ok(())
+    }
+}
+
+/// Where the state of a work folder is.
+pub(crate) fn state_file(dir: &Path) -> PathBuf {
+    dir.join("state.sqlite")
+}
+
+/// Where a work folder has the recording of a session.
+pub(crate) fn recording_of(dir: &Path, session: &str) -> PathBuf {
+    dir.join("mcap").join(format!("{session}.mcap"))
+}
+
+/// Files that ingest writes before it gives them their names. Nobody else writes them while the lock is held.
+fn remove_partial(mcap_dir: &Path) {
+    let entries = std::fs::read_dir(mcap_dir).into_iter().flatten().flatten();
+    for entry in entries.filter(|entry| ingest::is_partial(&entry.file_name())) {
+        match std::fs::remove_file(entry.path()) {
+            Ok(()) => tracing::info!("removed what an interrupted run left: {}", entry.path().display()),
+            Err(error) => tracing::warn!("left by an interrupted run: {}: {error}", entry.path().display()),
+        }
+    }
+}
