@@ -32,6 +32,8 @@ fn links_lead_somewhere() {
         "CONTRIBUTING.md",
         "docs/accuracy.md",
         "docs/study.md",
+        "docs/uncertainty.md",
+        "docs/calibration.md",
         "docs/devices.md",
         "docs/inspect.md",
     ] {

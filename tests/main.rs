@@ -4,6 +4,7 @@
 #![allow(clippy::print_stdout, reason = "what was measured, and what was skipped, shows with --nocapture")]
 
 mod bad_input;
+mod calibrate;
 mod check;
 mod damage;
 mod documents;
@@ -13,6 +14,7 @@ mod inspect;
 mod large;
 mod layers;
 mod measure;
+mod methods;
 mod project;
 mod published_bench;
 mod real;

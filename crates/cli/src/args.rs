@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
-use model::{Kind, Method, Shape};
+use model::{Kind, Method, Shape, Wall};
 
 use crate::logging::LogFormat;
 
@@ -43,6 +43,8 @@ pub enum Command {
     Check(CheckArgs),
     /// What is in a recording: channels, rates, gaps, clocks, pitch, range, images
     Inspect(InspectArgs),
+    /// What a bench with known sizes tells of a device: calibration.toml, for run --calibration
+    Calibrate(CalibrateArgs),
     /// One SD card to one MCAP file
     Ingest(IngestArgs),
     /// Tables again, from the files that run wrote
@@ -153,7 +155,7 @@ pub struct StatusArgs {
 /// Settings that win over study.toml.
 #[derive(Debug, clap::Args)]
 pub struct SettingsArgs {
-    /// Methods (paper, ray), separated by commas; default: those of study.toml
+    /// Methods (paper, ray, coaxial, joint, best), separated by commas; default: those of study.toml
     #[arg(long, env = "AIM_BATCH_METHOD", value_delimiter = ',')]
     pub method: Vec<Method>,
     /// Pitch near which frames are selected, in degrees; default: study.toml's
@@ -162,6 +164,9 @@ pub struct SettingsArgs {
     /// Half width of the window around it, in degrees; default: study.toml's
     #[arg(long, env = "AIM_BATCH_PITCH_TOLERANCE")]
     pub pitch_tolerance: Option<f64>,
+    /// Corrections that aim-batch calibrate has learned for the device (docs/calibration.md)
+    #[arg(long, value_name = "FILE.toml", env = "AIM_BATCH_CALIBRATION")]
+    pub calibration: Option<PathBuf>,
 }
 
 /// `check`.
@@ -181,6 +186,19 @@ pub struct CheckArgs {
     /// Settings in place of study.toml's
     #[command(flatten)]
     pub settings: SettingsArgs,
+}
+
+/// `calibrate`.
+#[derive(Debug, clap::Args)]
+pub struct CalibrateArgs {
+    /// Folder of the study (docs/study.md), with true sizes in objects.csv; nothing is written into it
+    pub study: PathBuf,
+    /// The file to write
+    #[arg(short, long, default_value = "calibration.toml")]
+    pub out: PathBuf,
+    /// Sessions at a time; default: the cores that this process may use
+    #[arg(short, long, env = "AIM_BATCH_JOBS")]
+    pub jobs: Option<NonZeroUsize>,
 }
 
 /// `inspect`.
@@ -283,6 +301,9 @@ pub struct MeasureArgs {
     /// Height of the rim above the table in mm, where it is known and not to be measured
     #[arg(long, value_name = "MM")]
     pub rim_height: Option<f64>,
+    /// How the wall stands, where it is known: vertical or sloped (a box's is vertical)
+    #[arg(long)]
+    pub wall: Option<Wall>,
     /// JSON on stdout
     #[arg(long)]
     pub json: bool,

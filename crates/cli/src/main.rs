@@ -23,6 +23,7 @@ fn main() -> ExitCode {
     logging::start(args.verbose, args.log_format, &bars);
     let outcome = match &args.command {
         Command::Run(run) => commands::run::run(run, args.log_format, &bars),
+        Command::Calibrate(calibrate) => commands::calibrate::run(calibrate, &bars),
         Command::Status(status) => commands::status::run(status),
         Command::Check(check) => commands::check::run(check, &bars),
         Command::Inspect(inspect) => commands::inspect::run(inspect, &bars),

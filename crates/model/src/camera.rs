@@ -1,6 +1,6 @@
 //! The camera: between pixels and rays.
 
-use nalgebra::{Point2, Vector3};
+use nalgebra::{Matrix2, Matrix3x2, Point2, Vector2, Vector3};
 
 use crate::lens::{LensError, LensModel};
 
@@ -104,9 +104,43 @@ impl Camera {
     /// [`LensError`] when the lens shows nothing there.
     pub fn ray_through(&self, pixel: Point2<f64>) -> Result<Vector3<f64>, LensError> {
         // The exact inverse of Eq. (4). The paper's Eq. (9) is misprinted: a '+' for a product, the skew transposed.
+        self.lens.ray_of_distorted(self.normalised(pixel))
+    }
+
+    fn normalised(&self, pixel: Point2<f64>) -> Point2<f64> {
         let y = (pixel.y - self.principal_px[1]) / self.focal_px[1];
         let x = (pixel.x - self.principal_px[0] - self.skew_px * y) / self.focal_px[0];
-        self.lens.ray_of_distorted(Point2::new(x, y))
+        Point2::new(x, y)
+    }
+
+    /// [`Self::ray_through`] with its derivative by the pixel, in closed form.
+    ///
+    /// # Errors
+    /// [`LensError`] when the lens shows nothing there, or folds there.
+    pub fn ray_and_derivative(&self, pixel: Point2<f64>) -> Result<(Vector3<f64>, Matrix3x2<f64>), LensError> {
+        let (ray, by_normalised) = self.lens.ray_and_derivative(self.normalised(pixel))?;
+        let [fx, fy] = self.focal_px;
+        let by_pixel = Matrix2::new(1.0 / fx, -self.skew_px / (fx * fy), 0.0, 1.0 / fy);
+        Ok((ray, by_normalised * by_pixel))
+    }
+
+    /// How far the mark at `pixel` would have to move to be read alike by a camera whose focal lengths are larger by a
+    /// small share, per that share.
+    pub(crate) fn pixel_by_focal_share(&self, pixel: Point2<f64>) -> Vector2<f64> {
+        let normalised = self.normalised(pixel);
+        -Vector2::new(self.focal_px[0] * normalised.x, self.focal_px[1] * normalised.y)
+    }
+
+    /// Likewise for a lens that shows the corners of the picture 1 px further out, and other points by the cube of their
+    /// distance from the principal point, as a radial distortion does.
+    pub(crate) fn pixel_by_corner_px(&self, pixel: Point2<f64>) -> Vector2<f64> {
+        let from_axis = pixel.coords - Vector2::from(self.principal_px);
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[x, y]| {
+            let corner = Vector2::new(x * f64::from(self.size_px[0]), y * f64::from(self.size_px[1]));
+            (corner - Vector2::from(self.principal_px)).norm()
+        });
+        let farthest = corners.into_iter().fold(1.0, f64::max);
+        -from_axis * (from_axis.norm_squared() / farthest.powi(3))
     }
 
     /// The pixel that shows a point or direction given in the camera frame. It may lie outside the picture.

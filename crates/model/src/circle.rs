@@ -2,7 +2,7 @@
 
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::storage::Owned;
-use nalgebra::{DVector, Dyn, Matrix3, OMatrix, Point2, U3, Vector3};
+use nalgebra::{DVector, Dyn, Matrix3, Matrix3x2, OMatrix, Point2, RowVector2, U3, Vector3};
 
 /// A circle on a plane, in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,8 +11,16 @@ pub struct Circle {
     pub center_mm: Point2<f64>,
     /// Radius.
     pub radius_mm: f64,
-    /// Standard deviation of the radius, in the unit of the points' scatter: from the inverse of the normal matrix.
-    pub radius_sd: f64,
+}
+
+/// A circle with what each point does to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CircleFit {
+    /// The circle.
+    pub circle: Circle,
+    /// Derivative of centre x, centre y and radius by x and y of each point, for points that lie near the circle: the
+    /// implicit function theorem on the normal equations, without terms in the residuals.
+    pub by_point: Vec<Matrix3x2<f64>>,
 }
 
 /// Why points do not give a circle.
@@ -37,21 +45,23 @@ pub enum CircleError {
 pub fn fit_circle(
     points_mm: &[Point2<f64>],
     scatter_mm: impl Fn(usize, nalgebra::Vector2<f64>) -> f64,
-) -> Result<Circle, CircleError> {
+) -> Result<CircleFit, CircleError> {
     if points_mm.len() < 3 {
         return Err(CircleError::TooFewPoints(points_mm.len()));
     }
     let mut circle = algebraic_fit(points_mm)?;
+    let mut by_point = Vec::new();
     // The scatter depends on the direction from the centre, so the second pass uses the first one's centre.
     for _ in 0..2 {
         let weights = points_mm.iter().enumerate().map(|(i, p)| {
             let direction = (p - circle.center_mm).try_normalize(0.0).unwrap_or_else(nalgebra::Vector2::x);
             scatter_mm(i, direction).max(f64::MIN_POSITIVE).recip()
         });
-        circle = geometric_fit(points_mm, DVector::from_iterator(points_mm.len(), weights), circle);
+        let weights = DVector::from_iterator(points_mm.len(), weights);
+        (circle, by_point) = geometric_fit(points_mm, weights, circle).ok_or(CircleError::Degenerate)?;
     }
-    if circle.radius_mm > 0.0 && circle.radius_mm.is_finite() && circle.radius_sd.is_finite() {
-        Ok(circle)
+    if circle.radius_mm > 0.0 && by_point.iter().flatten().all(|c: &f64| c.is_finite()) {
+        Ok(CircleFit { circle, by_point })
     } else {
         Err(CircleError::Degenerate)
     }
@@ -80,28 +90,29 @@ fn algebraic_fit(points_mm: &[Point2<f64>]) -> Result<Circle, CircleError> {
     }
     let solution = normal.cholesky().ok_or(CircleError::Degenerate)?.solve(&right);
     let radius = (solution.z + solution.x.powi(2) + solution.y.powi(2)).sqrt();
-    Ok(Circle {
-        center_mm: Point2::from(centroid + solution.xy() * scale),
-        radius_mm: radius * scale,
-        radius_sd: f64::NAN,
-    })
+    Ok(Circle { center_mm: Point2::from(centroid + solution.xy() * scale), radius_mm: radius * scale })
 }
 
-fn geometric_fit(points_mm: &[Point2<f64>], weights: DVector<f64>, start: Circle) -> Circle {
+fn geometric_fit(
+    points_mm: &[Point2<f64>],
+    weights: DVector<f64>,
+    start: Circle,
+) -> Option<(Circle, Vec<Matrix3x2<f64>>)> {
     let parameters = Vector3::new(start.center_mm.x, start.center_mm.y, start.radius_mm);
     let problem = RadialDistances { points_mm, weights, parameters };
     let (solved, report) = LevenbergMarquardt::new().minimize(problem);
     // A fit that cannot be improved within rounding is a fit; one that ran out of steps or numbers is none.
     let settled = report.termination.was_successful()
         || matches!(report.termination, TerminationReason::NoImprovementPossible(_));
-    let covariance =
-        solved.jacobian().filter(|_| settled).and_then(|jacobian| jacobian.tr_mul(&jacobian).try_inverse());
+    let jacobian = solved.jacobian().filter(|_| settled)?;
+    let inverse_normal = jacobian.tr_mul(&jacobian).try_inverse()?;
+    // Residuals change by w n with a point, n pointing from the centre; row i of the Jacobian is -w (n, 1).
+    let by_point = (0..points_mm.len()).map(|i| {
+        let row = jacobian.row(i);
+        inverse_normal * row.transpose() * RowVector2::new(row[0], row[1])
+    });
     let p = solved.parameters;
-    Circle {
-        center_mm: Point2::new(p.x, p.y),
-        radius_mm: p.z,
-        radius_sd: covariance.map_or(f64::NAN, |covariance| covariance[(2, 2)].sqrt()),
-    }
+    Some((Circle { center_mm: Point2::new(p.x, p.y), radius_mm: p.z }, by_point.collect()))
 }
 
 struct RadialDistances<'a> {

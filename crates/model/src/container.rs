@@ -31,9 +31,20 @@ coded_enum! {
 }
 
 coded_enum! {
+    /// How the wall of a container stands.
+    Wall {
+        Vertical = "vertical": "upright: the rim lies above the foot",
+        Sloped = "sloped": "the rim is wider or narrower than the foot",
+    }
+}
+
+coded_enum! {
     /// How marks become sizes.
     Method {
         Paper = "paper": "the paper's equations 10-15: roll taken as zero, wall height H = tan(pitch) H'",
         Ray = "ray": "measured roll, and the wall height from the rim point's own ray: exact for a vertical wall",
+        Coaxial = "coaxial": "round bowls with rim and base outlined: two circles about one vertical axis, whatever the wall",
+        Joint = "joint": "two or more images of one bowl at different pitches: height and wall slope together, fused rows only",
+        Best = "best": "of the others the one with the smallest uncertainty whose assumptions hold",
     }
 }

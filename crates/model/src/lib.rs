@@ -29,6 +29,7 @@
 //! ```
 #![warn(missing_docs)]
 
+pub mod calibrate;
 mod camera;
 mod camera_spec;
 mod circle;
@@ -36,35 +37,45 @@ mod codes;
 mod container;
 mod flow;
 mod frame_log;
+mod fusion;
 pub mod lens;
+mod located;
 mod marks;
 mod measure;
 mod polynomial;
 mod pose;
 pub mod results;
+mod sensed;
 mod sink;
+mod source;
 mod stats;
 mod status;
 mod table;
 mod time;
 mod uncertainty;
+pub mod validation;
 mod view;
 
 pub use camera::{Camera, CameraError};
 pub use camera_spec::{CameraSpec, CameraSpecError, LensSpec};
-pub use circle::{Circle, CircleError, fit_circle};
-pub use container::{Kind, Method, Quantity, Shape};
+pub use circle::{Circle, CircleError, CircleFit, fit_circle};
+pub use container::{Kind, Method, Quantity, Shape, Wall};
 pub use flow::{Flow, FlowStep, ImageCounts, StudyFlow};
 pub use frame_log::{FrameFlag, FrameReason};
+pub use fusion::{Consistency, Fused, Share, Verdict, fuse};
 pub use lens::{LensError, LensModel};
 pub use marks::{Feature, Mark, ObjectMarks};
-pub use measure::{Container, MeasureError, Measured, height_by_paper_mm, height_by_ray_mm, measure};
+pub use measure::{
+    Container, JointError, JointHeight, MeasureError, Measured, Sight, height_by_paper_mm, height_by_ray_mm,
+    joint_height, measure, sights,
+};
 pub use pose::{Pose, PoseError};
 pub use results::{FrameRow, Level, ResultRow};
 pub use sink::{ResultSink, RunLog, RunMetadata, SessionLog, StageLog};
+pub use source::{PerSource, SOURCES, Source, SourceCovariance};
 pub use stats::{ErrorStats, median};
 pub use status::{Problem, SessionStatus, Severity, Stage};
 pub use table::{Note, PrintedRow, PrintedSummary, PrintedTable, Selection, TableLayout, TableSpec};
 pub use time::UtcNs;
-pub use uncertainty::{Estimate, InputSigma, SizeSigma, estimate};
+pub use uncertainty::{Doubt, Estimate, InputSigma, LEARNED, Sensitivity, SizeSigma, best_of, estimate};
 pub use view::{View, ViewError};

@@ -60,7 +60,7 @@ fn sizes(
     marks: Vec<Mark>,
 ) -> Vec<(Quantity, Result<Measured, MeasureError>)> {
     let marks = ObjectMarks { object: "object".to_owned(), marks };
-    measure(view, Method::Ray, &Container { kind, shape, rim_height_mm }, &marks)
+    measure(view, Method::Ray, &Container { kind, shape, rim_height_mm, wall: None }, &marks)
 }
 
 fn assert_sizes(got: &[(Quantity, Result<Measured, MeasureError>)], expected_mm: &[(Quantity, f64)]) {
@@ -180,7 +180,7 @@ fn the_paper_method_takes_the_roll_as_zero() {
     let ends_px = [seen(&rolled, -75.0, 330.0, 0.0), seen(&rolled, 75.0, 330.0, 0.0)];
     let marks =
         ObjectMarks { object: "plate".to_owned(), marks: vec![Mark::Line { quantity: Quantity::Diameter, ends_px }] };
-    let plate = Container { kind: Kind::Plate, shape: Shape::Circle, rim_height_mm: None };
+    let plate = Container { kind: Kind::Plate, shape: Shape::Circle, rim_height_mm: None, wall: None };
     let predicted_mm = |method| measure(&rolled, method, &plate, &marks)[0].1.unwrap().predicted_mm;
     assert!((predicted_mm(Method::Ray) - 150.0).abs() < 1e-6);
     let straight = view(55.0, 0.0, 580.0);

@@ -6,7 +6,7 @@ use aim_batch_model::{
     Camera, Container, ErrorStats, Feature, InputSigma, Kind, LensModel, Mark, Method, ObjectMarks, Pose, Quantity,
     Shape, SizeSigma, View, estimate, lens::Radial, measure,
 };
-use nalgebra::{Point2, Point3};
+use nalgebra::{Point2, Point3, Rotation3, Vector2, Vector3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -16,14 +16,7 @@ const DRAWS: usize = 4000;
 /// Four times that, and something for the curvature that a first-order propagation leaves out.
 const TOLERANCE: f64 = 0.06;
 
-const NONE: InputSigma = InputSigma {
-    pitch_rad: 0.0,
-    tilt_rad: 0.0,
-    range_relative: 0.0,
-    mark_px: 0.0,
-    focal_relative: 0.0,
-    principal_px: 0.0,
-};
+const NONE: InputSigma = InputSigma::NONE;
 
 struct Scene {
     view: View,
@@ -49,7 +42,7 @@ fn line(view: &View, quantity: Quantity, a: [f64; 3], b: [f64; 3]) -> Mark {
 fn scene(method: Method, roll_deg: f64, kind: Kind, shape: Shape, marks: impl Fn(&View) -> Vec<Mark>) -> Scene {
     let view = view(roll_deg);
     let marks = ObjectMarks { object: "o".to_owned(), marks: marks(&view) };
-    Scene { view, method, container: Container { kind, shape, rim_height_mm: None }, marks }
+    Scene { view, method, container: Container { kind, shape, rim_height_mm: None, wall: None }, marks }
 }
 
 fn bowl(view: &View) -> Vec<Mark> {
@@ -75,7 +68,7 @@ fn lines_of_a_plate(view: &View) -> Vec<Mark> {
 impl Scene {
     fn sigma(&self, quantity: Quantity, inputs: &InputSigma) -> SizeSigma {
         let found = estimate(&self.view, self.method, &self.container, &self.marks, inputs);
-        found.into_iter().find(|(q, _)| *q == quantity).unwrap().1.unwrap().sigma.unwrap()
+        found.into_iter().find(|(q, _)| *q == quantity).unwrap().1.unwrap().sigma
     }
 
     /// SD of the size over draws of all inputs. The paper's method takes roll as zero, so its roll cannot be drawn.
@@ -85,22 +78,30 @@ impl Scene {
             .map(|_| {
                 let mut draw = |sigma: f64| sigma * Distribution::<f64>::sample(&StandardNormal, &mut random);
                 let pose = self.view.pose();
-                let pose = Pose::new(
-                    pose.pitch_rad() + draw(inputs.pitch_rad),
-                    pose.roll_rad() + draw(inputs.tilt_rad / pose.pitch_rad().cos()),
-                    pose.range_mm() * (1.0 + draw(inputs.range_relative)),
+                let (pitch, roll) = (
+                    pose.pitch_rad() + draw(inputs.pitch_rad) + draw(inputs.turn_noise_rad),
+                    pose.roll_rad() + draw(inputs.tilt_rad.hypot(inputs.turn_noise_rad) / pose.pitch_rad().cos()),
                 );
+                let turn = Rotation3::from_axis_angle(&Vector3::x_axis(), draw(inputs.mount_rad));
+                let down = turn * Pose::new(pitch, roll, 1.0).unwrap().down_in_camera();
+                let (pitch, roll) = Pose::pitch_roll_of_down(&down).unwrap();
+                let noise_mm = draw(inputs.range_offset_mm) + draw(inputs.range_noise_mm);
+                let pose = Pose::new(pitch, roll, pose.range_mm() * (1.0 + draw(inputs.range_relative)) + noise_mm);
                 let camera = self.view.camera();
                 let scale = 1.0 + draw(inputs.focal_relative);
                 let principal_px = camera.principal_px().map(|c| c + draw(inputs.principal_px));
                 let focal_px = camera.focal_px().map(|f| f * scale);
                 let camera = Camera::new(camera.size_px(), focal_px, principal_px, 0.0, *camera.lens()).unwrap();
                 let mut marks = self.marks.clone();
+                let bend_px = draw(inputs.distortion_px);
                 for mark in &mut marks.marks {
                     let points: &mut [Point2<f64>] = match mark {
                         Mark::Line { ends_px, .. } => ends_px,
                         Mark::Outline { points_px, .. } => points_px,
                     };
+                    for point in points.iter_mut() {
+                        *point -= bent(point, &camera) * bend_px;
+                    }
                     for coordinate in points.iter_mut().flat_map(|p| p.coords.iter_mut()) {
                         *coordinate += draw(inputs.mark_px);
                     }
@@ -122,20 +123,37 @@ impl Scene {
     }
 }
 
+/// Where a lens shows a point too far out, if it shows the corners 1 px too far out.
+fn bent(point: &Point2<f64>, camera: &Camera) -> Vector2<f64> {
+    let [cx, cy] = camera.principal_px();
+    let out = Vector2::new(point.x - cx, point.y - cy);
+    out * (out.norm_squared() / 1620.0_f64.powi(3)) // half the diagonal
+}
+
 fn check_all(scene: &Scene, quantity: Quantity) {
     scene.check(quantity, InputSigma { pitch_rad: 0.004, ..NONE }, |s| s.pitch_mm);
     scene.check(quantity, InputSigma { range_relative: 0.01, ..NONE }, |s| s.range_mm);
     scene.check(quantity, InputSigma { mark_px: 1.0, ..NONE }, |s| s.marks_mm);
     scene.check(quantity, InputSigma { focal_relative: 0.005, principal_px: 3.0, ..NONE }, |s| s.camera_mm);
+    scene.check(quantity, InputSigma { mount_rad: 0.004, ..NONE }, |s| s.mount_mm);
+    scene.check(quantity, InputSigma { range_offset_mm: 5.0, range_noise_mm: 5.0, ..NONE }, |s| s.range_mm);
+    scene.check(quantity, InputSigma { distortion_px: 3.0, ..NONE }, |s| s.camera_mm);
+    let rolls = scene.method != Method::Paper;
     let all = InputSigma {
         pitch_rad: 0.004,
-        tilt_rad: if scene.method == Method::Ray { 0.004 } else { 0.0 },
+        tilt_rad: if rolls { 0.004 } else { 0.0 },
+        mount_rad: 0.004,
+        range_offset_mm: 3.0,
+        distortion_px: 3.0,
+        turn_noise_rad: if rolls { 0.003 } else { 0.0 },
+        range_noise_mm: 2.0,
         range_relative: 0.01,
         mark_px: 1.0,
         focal_relative: 0.005,
         principal_px: 3.0,
+        ..NONE
     };
-    scene.check(quantity, all, SizeSigma::total_mm);
+    scene.check(quantity, all, |s| s.total_mm);
 }
 
 #[test]
@@ -151,6 +169,22 @@ fn bowls_whose_rim_plane_is_uncertain_too() {
         check_all(&bowl, Quantity::Height);
         check_all(&bowl, Quantity::Diameter);
     }
+}
+
+#[test]
+fn bowls_with_sloped_walls_by_their_circles() {
+    let sloped = |view: &View| {
+        let circle = |feature, radius_mm: f64, z_mm: f64| {
+            let points = (0..20)
+                .map(|i| (f64::from(i) * 0.3).sin_cos())
+                .map(|(s, c)| pixel(view, radius_mm * c, 350.0 + radius_mm * s, z_mm));
+            Mark::Outline { feature, points_px: points.collect() }
+        };
+        vec![circle(Feature::Rim, 80.0, 60.0), circle(Feature::Base, 45.0, 0.0)]
+    };
+    let bowl = scene(Method::Coaxial, 7.0, Kind::Bowl, Shape::Circle, sloped);
+    check_all(&bowl, Quantity::Height);
+    check_all(&bowl, Quantity::Diameter);
 }
 
 #[test]

@@ -151,7 +151,12 @@ pub fn parse(bytes: &[u8], path: &Path, picture_px: [u32; 2]) -> Result<Marks, M
     let mut objects: BTreeMap<String, Vec<Mark>> = BTreeMap::new();
     let mut refused = Vec::new();
     for (number, shape) in (1..).zip(&file.shapes) {
-        match mark(shape) {
+        let within = |(object, mark): (String, Mark)| {
+            let of_object: &[Mark] = objects.get(&object).map_or(&[], Vec::as_slice);
+            let points = of_object.iter().chain([&mark]).map(|mark| mark.points_px().len()).sum::<usize>();
+            if of_object.len() < MOST_MARKS && points <= MOST_POINTS { Ok((object, mark)) } else { Err(too_many()) }
+        };
+        match mark(shape).and_then(within) {
             Ok((object, mark)) => objects.entry(object).or_default().push(mark),
             Err(fact) => {
                 refused.push(MarksError::Shape { path: path.to_owned(), number, label: shape.label.clone(), fact });
@@ -160,6 +165,14 @@ pub fn parse(bytes: &[u8], path: &Path, picture_px: [u32; 2]) -> Result<Marks, M
     }
     let objects = objects.into_iter().map(|(object, marks)| ObjectMarks { object, marks }).collect();
     Ok(Marks { objects, refused })
+}
+
+/// Nobody marks one object in one picture more often, or with more points; uncertainties take memory by marks times points.
+const MOST_MARKS: usize = 100;
+const MOST_POINTS: usize = 20_000;
+
+fn too_many() -> String {
+    format!("expected at most {MOST_MARKS} marks and {MOST_POINTS} points of one object in one picture")
 }
 
 fn mark(shape: &Shape) -> Result<(String, Mark), String> {
@@ -243,6 +256,17 @@ mod tests {
             assert!(error.contains(expected) && error.contains("shape 1") && error.contains("m.json"), "{error}");
         }
         assert!(parse_shapes(r#"{"label": 7}"#).unwrap_err().to_string().contains("line 1 column"));
+    }
+
+    #[test]
+    fn marks_without_end_are_refused() {
+        let line = r#"{"label": "p/width", "points": [[1,2],[3,4]], "shape_type": "line"}"#;
+        let marks = parse_shapes(&vec![line; MOST_MARKS + 3].join(",")).unwrap();
+        assert_eq!((marks.objects[0].marks.len(), marks.refused.len()), (MOST_MARKS, 3));
+        assert!(marks.refused[0].to_string().contains("at most 100 marks"));
+        let points = vec!["[1,2]"; MOST_POINTS + 1].join(",");
+        let marks = parse_shapes(&format!(r#"{{"label": "p/rim", "points": [{points}]}}"#)).unwrap();
+        assert_eq!((marks.objects.len(), marks.refused.len()), (0, 1));
     }
 
     #[test]

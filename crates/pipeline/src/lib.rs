@@ -11,6 +11,7 @@
 //! and a remedy; the others complete.
 #![warn(missing_docs)]
 
+pub mod calibrate;
 mod check;
 #[cfg(debug_assertions)]
 mod fault;

@@ -4,6 +4,7 @@
 //! - [`Results`] reads `results.parquet` back, with the metadata of its run; [`read_frames`] reads `frames.parquet`;
 //!   [`frames_file`] says where it is, and [`Results::read_flow`] counts its images.
 //! - [`tables`] makes the tables that the study asks for; [`sizes`], [`error_by_pitch`] and [`error_by_height`] three more;
+//!   [`accuracy`], [`rater_agreement`] and [`methods`] hold sizes, raters and methods against the truth and each other;
 //!   [`flow`] and [`left_out`] tell what became of the images.
 //! - [`terminal`], [`csv()`], [`markdown`] and [`latex`] draw one [`Table`]; [`write_dir`] writes them all.
 //! - [`compare`] holds the tables against a folder of expected ones: a gate for automatic runs.
@@ -24,5 +25,7 @@ pub use compare::{CompareError, Comparison, Difference, compare};
 pub use parquet::{ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, run_file};
 pub use render::{csv, latex, markdown, terminal, terminal_set};
 pub use table::{Align, Cell, Column, Footnote, Format, Role, RowKind, Table, TableRow};
-pub use tables::{error_by_height, error_by_pitch, flow, flow_in_short, left_out, sizes, tables};
+pub use tables::{
+    accuracy, error_by_height, error_by_pitch, flow, flow_in_short, left_out, methods, rater_agreement, sizes, tables,
+};
 pub use write_dir::{WriteError, write_dir};

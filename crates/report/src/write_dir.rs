@@ -8,7 +8,9 @@ use crate::atomic::{self, FileError};
 use crate::parquet::Results;
 use crate::render::{csv, latex, markdown};
 use crate::table::Table;
-use crate::tables::{error_by_height, error_by_pitch, flow, left_out, sizes, tables};
+use crate::tables::{
+    accuracy, error_by_height, error_by_pitch, flow, left_out, methods, rater_agreement, sizes, tables,
+};
 
 /// Tables that could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -41,7 +43,7 @@ pub enum WriteError {
 }
 
 /// Writes every table as .csv, .md and .tex (`table_II.csv`, ..., `sizes.csv`, `error_by_pitch.csv`,
-/// `error_by_height.csv`, and `flow.csv` and `left_out.csv` where the ledger was read), and all of them as `tables.md`.
+/// `error_by_height.csv`, `accuracy.csv`, `rater_agreement.csv` and `methods.csv` where there is something to compare, and `flow.csv` and `left_out.csv` where the ledger was read), and all of them as `tables.md`.
 /// Makes the folder if need be; every file is written aside and renamed.
 ///
 /// # Errors
@@ -59,10 +61,12 @@ pub fn write_dir(results: &Results, dir: &Path) -> Result<(), WriteError> {
     Ok(atomic::write(&dir.join("tables.md"), all_markdown(&tables, results).as_bytes())?)
 }
 
-/// The tables of the study, the sizes, error by pitch and by height, and what became of the images.
+/// The tables of the study, the sizes, error by pitch and by height, validation, and what became of the images.
 pub(crate) fn every_table(results: &Results) -> Vec<Table> {
     let mut tables = tables(results);
     tables.extend([sizes(results), error_by_pitch(results), error_by_height(results)]);
+    let validation = [accuracy(results), rater_agreement(results), methods(results)];
+    tables.extend(validation.into_iter().filter(|table| !table.rows.is_empty()));
     tables.extend([flow(results), left_out(results)].into_iter().flatten());
     tables
 }

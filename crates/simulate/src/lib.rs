@@ -5,6 +5,7 @@
 //! - [`render`]: a scene and a camera at a pose -> a picture;
 //! - [`sensors`]: the motion of a head -> packets of an accelerometer and of a range sensor;
 //! - [`study`]: the folder, its images' names, marks in LabelMe's format;
+//! - [`trial`]: sizes measured through erring sensors, without pictures: accuracy and coverage of uncertainties;
 //! - [`published`]: the preset `published-bench`, the paper's bench rebuilt from its published readings;
 //! - [`large`]: the preset `large`, many sessions for load tests.
 //!
@@ -23,6 +24,7 @@ pub mod render;
 pub mod scene;
 pub mod sensors;
 pub mod study;
+pub mod trial;
 
 pub use error::SimulateError;
 pub use large::{LargeOptions, large};

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
-use pipeline::{Halted, Holder, RunError, RunOptions, Study};
+use pipeline::{Halted, Holder, RunError, RunOptions};
 use report::{FileError, SinkError};
 
 use super::summary::{Finished, tell_summary};
@@ -17,7 +17,7 @@ use crate::progress::Bars;
 /// Runs the study, prints the tables and what was lost.
 pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Failure> {
     check(args)?;
-    let study = Study::load(&args.study, |spec| settings::apply(&args.settings, spec)).map_err(Failure::usage)?;
+    let study = settings::load(&args.study, &args.settings)?;
     place::check_apart(&args.place, &study)?;
     let out = &args.place.out;
     let frames = ::report::frames_file(out);

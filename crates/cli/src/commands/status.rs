@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use indicatif::{HumanBytes, HumanCount};
 use model::SessionStatus;
-use pipeline::{SessionState, Study, StudyState};
+use pipeline::{SessionState, StudyState};
 use serde::Serialize;
 
 use super::{COMMIT, PROGRAM, print, settings};
@@ -16,7 +16,7 @@ const SCHEMA_VERSION: u32 = 1;
 
 /// Tells it.
 pub fn run(args: &StatusArgs) -> Result<Outcome, Failure> {
-    let study = Study::load(&args.study, |spec| settings::apply(&args.settings, spec)).map_err(Failure::usage)?;
+    let study = settings::load(&args.study, &args.settings)?;
     let work_dir = args.place.work_dir();
     let state = pipeline::status(&study, &work_dir, PROGRAM, COMMIT)?;
     if args.json {

@@ -1,6 +1,6 @@
 //! The one-parameter division model.
 
-use nalgebra::Point2;
+use nalgebra::{Matrix2, Point2};
 
 use super::{LensError, radius};
 
@@ -24,6 +24,13 @@ impl Division {
             return Err(LensError::ImageBeyondRange { radius: r, limit });
         }
         Ok(distorted / (1.0 + self.lambda * r * r))
+    }
+
+    /// Derivative of [`Self::undistort`]: I / s - 2 lambda p p^T / s^2 with s = 1 + lambda r^2.
+    pub(super) fn ideal_by_distorted(&self, distorted: Point2<f64>) -> Matrix2<f64> {
+        let s = 1.0 + self.lambda * distorted.coords.norm_squared();
+        let outer = distorted.coords * distorted.coords.transpose();
+        Matrix2::identity() / s - outer * (2.0 * self.lambda / (s * s))
     }
 
     /// The branch through zero of lambda r r_d^2 - r_d + r = 0.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Point2, Vector3};
+use nalgebra::{Matrix3x2, Point2, RowVector2, Vector2, Vector3};
 
 use super::{LensError, radius};
 use crate::polynomial::{evaluate, first_root, solve_increasing};
@@ -52,6 +52,30 @@ impl Fisheye {
         }
         let (sin, cos) = solve_increasing(|t| self.distorted_radius(t), r, 0.0, limit_rad).sin_cos();
         Ok(Vector3::new(distorted.x / r * sin, distorted.y / r * sin, cos))
+    }
+
+    /// Derivative of [`Self::ray_of_distorted`], whose rays have length 1: along the radius the ray turns by dt/dr, across
+    /// it by sin t / r.
+    pub(super) fn ray_by_distorted(
+        &self,
+        distorted: Point2<f64>,
+        ray: &Vector3<f64>,
+    ) -> Result<Matrix3x2<f64>, LensError> {
+        let r = radius(distorted);
+        if r <= f64::MIN_POSITIVE {
+            return Ok(Matrix3x2::identity()); // t = r to first order
+        }
+        let (sin, cos) = (ray.x.hypot(ray.y), ray.z);
+        let angle_rad = sin.atan2(cos);
+        let slope = evaluate(&[1.0, 3.0 * self.k1, 5.0 * self.k2, 7.0 * self.k3, 9.0 * self.k4], angle_rad * angle_rad);
+        if slope <= 0.0 {
+            return Err(LensError::NotFinite);
+        }
+        let along = Vector2::new(distorted.x / r, distorted.y / r);
+        let across = Vector2::new(-along.y, along.x);
+        let turned = Vector3::new(along.x * cos, along.y * cos, -sin) / slope;
+        let swung = Vector3::new(across.x, across.y, 0.0) * (sin / r);
+        Ok(turned * RowVector2::new(along.x, along.y) + swung * RowVector2::new(across.x, across.y))
     }
 
     fn distorted_radius(&self, angle_rad: f64) -> f64 {

@@ -13,7 +13,7 @@ pub use fisheye::Fisheye;
 pub use plumb_bob::PlumbBob;
 pub use radial::Radial;
 
-use nalgebra::{Point2, Vector3};
+use nalgebra::{Matrix2, Matrix3x2, Point2, Vector3};
 
 /// How a lens bends rays. All coefficients are for normalised coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,6 +102,31 @@ impl LensModel {
         })?;
         Ok(Vector3::new(ideal.x, ideal.y, 1.0))
     }
+
+    /// [`Self::ray_of_distorted`] with its derivative by the image point, in closed form: the ray has exactly the length
+    /// that the derivative belongs to.
+    ///
+    /// # Errors
+    /// [`LensError`] when no ray is shown there, or the model folds there.
+    pub fn ray_and_derivative(&self, distorted: Point2<f64>) -> Result<(Vector3<f64>, Matrix3x2<f64>), LensError> {
+        let ray = self.ray_of_distorted(distorted)?;
+        let ideal = Point2::new(ray.x, ray.y);
+        let by_image = match self {
+            Self::None => Matrix2::identity(),
+            Self::Radial(lens) => inverse(&lens.distorted_by_ideal(ideal))?,
+            Self::Division(lens) => lens.ideal_by_distorted(distorted),
+            Self::PlumbBob(lens) => inverse(&lens.jacobian(ideal))?,
+            Self::Fisheye(lens) => return Ok((ray, lens.ray_by_distorted(distorted, &ray)?)),
+        };
+        let mut derivative = Matrix3x2::zeros();
+        derivative.fixed_view_mut::<2, 2>(0, 0).copy_from(&by_image);
+        Ok((ray, derivative))
+    }
+}
+
+/// Where a lens folds its Jacobian has no inverse.
+fn inverse(forward: &Matrix2<f64>) -> Result<Matrix2<f64>, LensError> {
+    forward.try_inverse().filter(|m| m.iter().all(|c| c.is_finite())).ok_or(LensError::NotFinite)
 }
 
 /// Refuses what overflowed: a ray all but sideways, or a coefficient beyond all sense.

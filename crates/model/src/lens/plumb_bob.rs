@@ -97,7 +97,7 @@ impl PlumbBob {
         ideal * self.radial_factor(r2) + tangential
     }
 
-    fn jacobian(&self, ideal: Point2<f64>) -> Matrix2<f64> {
+    pub(super) fn jacobian(&self, ideal: Point2<f64>) -> Matrix2<f64> {
         let (x, y) = (ideal.x, ideal.y);
         let r2 = x * x + y * y;
         let factor = self.radial_factor(r2);

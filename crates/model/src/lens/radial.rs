@@ -1,6 +1,6 @@
 //! The paper's one-parameter lens.
 
-use nalgebra::Point2;
+use nalgebra::{Matrix2, Point2};
 
 use super::{LensError, radius};
 
@@ -30,6 +30,12 @@ impl Radial {
             return Err(LensError::IdealBeyondRange { radius: r, limit });
         }
         Ok(ideal * (1.0 + self.k1 * r * r)) // Eq. (3)
+    }
+
+    /// Derivative of Eq. (3): (1 + k1 r^2) I + 2 k1 p p^T.
+    pub(super) fn distorted_by_ideal(&self, ideal: Point2<f64>) -> Matrix2<f64> {
+        let r2 = ideal.coords.norm_squared();
+        Matrix2::identity() * (1.0 + self.k1 * r2) + ideal.coords * ideal.coords.transpose() * (2.0 * self.k1)
     }
 
     pub(super) fn undistort(&self, distorted: Point2<f64>) -> Result<Point2<f64>, LensError> {

@@ -1,13 +1,22 @@
 //! From the marks of one object on one picture to its sizes.
 
+mod error;
+mod height;
+mod joint;
+mod numbered;
+mod round;
 mod span;
 
-use nalgebra::{Point2, Vector2};
+use crate::container::{Kind, Method, Quantity, Shape, Wall};
+use crate::marks::ObjectMarks;
+use crate::sensed::Sensed;
+use crate::view::View;
 
-use crate::circle::CircleError;
-use crate::container::{Kind, Method, Quantity, Shape};
-use crate::marks::{Feature, Mark, ObjectMarks};
-use crate::view::{View, ViewError};
+pub use error::MeasureError;
+pub use height::{height_by_paper_mm, height_by_ray_mm};
+pub use joint::{JointError, JointHeight, Sight, joint_height, sights};
+use numbered::Numbered;
+use round::coaxial;
 use span::Span;
 
 /// What is known of a container before it is measured.
@@ -19,6 +28,22 @@ pub struct Container {
     pub shape: Shape,
     /// Height of the rim above the table where it is known (a catalogue, a ruler) and need not be measured.
     pub rim_height_mm: Option<f64>,
+    /// How its wall stands, where it is known; a box's is vertical.
+    pub wall: Option<Wall>,
+}
+
+impl Container {
+    /// How its wall stands; none where nobody knows.
+    #[must_use]
+    pub fn known_wall(&self) -> Option<Wall> {
+        self.wall.or((self.kind == Kind::Box).then_some(Wall::Vertical))
+    }
+
+    /// Whether its mouth is measured on a plane whose height comes from the same picture.
+    #[must_use]
+    pub fn rim_plane_is_measured(&self) -> bool {
+        self.rim_height_mm.is_none() && self.kind != Kind::Plate
+    }
 }
 
 /// One size.
@@ -34,116 +59,23 @@ pub struct Measured {
     pub marks: usize,
 }
 
-/// Why marks do not give a size.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum MeasureError {
-    /// A marked point has no place on its plane.
-    #[error(transparent)]
-    View(#[from] ViewError),
-    /// An outline does not give a circle.
-    #[error("{feature} outline: {source}")]
-    Circle {
-        /// Which outline.
-        feature: Feature,
-        /// Why.
-        source: CircleError,
-    },
-    /// A rim is marked, but its height is not known.
-    #[error(
-        "the rim's height is not known: mark a line OBJECT/height from the wall's foot on the table to the rim above it, \
-         or give the rim height"
-    )]
-    NoHeight,
-    /// The second end of a height line is not behind the first one.
-    #[error(
-        "the height line runs towards the wearer on the table plane: draw it from the wall's foot on the table to the rim \
-         above it"
-    )]
-    RimBelowFoot,
-    /// A height that a wall seen from above cannot have.
-    #[error(
-        "a wall {height_mm:.0} mm high would reach above the camera, which is {camera_height_mm:.0} mm above the table"
-    )]
-    RimAboveCamera {
-        /// The height found.
-        height_mm: f64,
-        /// Height of the camera.
-        camera_height_mm: f64,
-    },
-    /// The ends of a line, or two corners, lie on one spot.
-    #[error("the marked points lie on one spot: draw the mark again")]
-    NoLength,
-    /// A rim polygon of a square or rectangle that is not four corners.
-    #[error("rim outline of a {shape}: expected its 4 corners, got {points} points")]
-    NotFourCorners {
-        /// The shape.
-        shape: Shape,
-        /// How many points there are.
-        points: usize,
-    },
+/// A size with its derivatives.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Sized {
+    pub measured: Measured,
+    pub number: Sensed,
+    /// Radius gained per height, where the method tells it.
+    pub wall_slope: Option<f64>,
 }
 
-impl MeasureError {
-    /// Stable code, as in the `flags` of the results.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::View(_) => "mark_off_plane",
-            Self::Circle { .. } => "no_circle",
-            Self::NoHeight => "no_height",
-            Self::RimBelowFoot => "rim_below_foot",
-            Self::RimAboveCamera { .. } => "rim_above_camera",
-            Self::NoLength => "no_length",
-            Self::NotFourCorners { .. } => "not_four_corners",
-        }
-    }
-}
-
-/// Wall height by the paper: Eq. (14), H = tan(w) H', where H' is the length along Y, on Z = 0, from the wall's foot to
-/// the rim above it. This uses the depression of the optical axis for every ray.
-///
-/// # Errors
-/// [`MeasureError`] when an end has no place on the table, or the rim end lies nearer than the foot.
-pub fn height_by_paper_mm(view: &View, foot_px: Point2<f64>, rim_px: Point2<f64>) -> Result<f64, MeasureError> {
-    let (foot, rim) = (view.on_plane(foot_px, 0.0)?, view.on_plane(rim_px, 0.0)?);
-    let projected_mm = rim.y - foot.y; // H'
-    possible_height(view, view.pose().pitch_rad().tan() * projected_mm) // Eq. (14)
-}
-
-/// Wall height by the rim point's own ray, exact for a vertical wall: H = c (1 - |foot| / |rim|), with distances on
-/// Z = 0 from the point under the camera.
-///
-/// # Errors
-/// As [`height_by_paper_mm`].
-pub fn height_by_ray_mm(view: &View, foot_px: Point2<f64>, rim_px: Point2<f64>) -> Result<f64, MeasureError> {
-    let (foot, rim) = (view.on_plane(foot_px, 0.0)?, view.on_plane(rim_px, 0.0)?);
-    possible_height(view, view.pose().camera_height_mm() * (1.0 - foot.coords.norm() / rim.coords.norm()))
-}
-
-fn height_mm(view: &View, method: Method, foot_px: Point2<f64>, rim_px: Point2<f64>) -> Result<f64, MeasureError> {
-    match method {
-        Method::Paper => height_by_paper_mm(view, foot_px, rim_px),
-        Method::Ray => height_by_ray_mm(view, foot_px, rim_px),
-    }
-}
-
-/// A height above the table and below the camera.
-fn possible_height(view: &View, height_mm: f64) -> Result<f64, MeasureError> {
-    let camera_height_mm = view.pose().camera_height_mm();
-    if height_mm >= camera_height_mm {
-        Err(MeasureError::RimAboveCamera { height_mm, camera_height_mm })
-    } else if height_mm > 0.0 {
-        Ok(height_mm)
-    } else {
-        Err(MeasureError::RimBelowFoot)
-    }
-}
+type Sizes = Vec<(Quantity, Result<Sized, MeasureError>)>;
 
 /// The sizes of one marked object: heights first, then what is measured on the rim plane Z = H (plates: Z = 0, unless
 /// their rim height is known). Several marks of one quantity are averaged.
 ///
 /// [`Method::Paper`] takes the roll as zero. A known rim height decides the plane; a marked height is then still
-/// measured and returned.
+/// measured and returned. [`Method::Coaxial`] gives sizes where rim and base of a round bowl are outlined, and nothing
+/// otherwise; [`Method::Joint`] and [`Method::Best`] need more than one method or picture, and give nothing here.
 ///
 /// # Errors
 /// One per quantity that is marked but cannot be measured; the other quantities are still returned.
@@ -154,104 +86,90 @@ pub fn measure(
     container: &Container,
     marks: &ObjectMarks,
 ) -> Vec<(Quantity, Result<Measured, MeasureError>)> {
-    measure_as_seen(&view_of_method(view, method), method, container, marks)
+    let sizes = sizes(&view_of_method(view, method), method, container, marks);
+    sizes.into_iter().map(|(quantity, size)| (quantity, size.map(|size| size.measured))).collect()
 }
 
 /// The view as a method takes it.
 pub(crate) fn view_of_method(view: &View, method: Method) -> View {
     match method {
         Method::Paper => View::new(*view.camera(), view.pose().without_roll()),
-        Method::Ray => *view,
+        Method::Ray | Method::Coaxial | Method::Joint | Method::Best => *view,
     }
 }
 
-/// [`measure`] with the view taken as it is, roll included.
-pub(crate) fn measure_as_seen(
-    view: &View,
-    method: Method,
-    container: &Container,
-    marks: &ObjectMarks,
-) -> Vec<(Quantity, Result<Measured, MeasureError>)> {
-    let height = marked_height(view, method, marks);
-    let plane_z_mm = match (container.rim_height_mm, container.kind, &height) {
-        (Some(known_mm), _, _) => Ok(known_mm),
-        (None, Kind::Plate, _) => Ok(0.0),
-        (None, Kind::Bowl | Kind::Box, Some(Ok(measured))) => Ok(measured.predicted_mm),
+/// [`measure`] with derivatives, and with the view taken as it is, roll included.
+pub(crate) fn sizes(view: &View, method: Method, container: &Container, marks: &ObjectMarks) -> Sizes {
+    let numbered = Numbered::of(marks);
+    let height = match method {
+        Method::Paper | Method::Ray => height_of_lines(view, method, &numbered),
+        Method::Coaxial => match coaxial_height(view, container, &numbered) {
+            Some(height) => Some(height),
+            None => return Vec::new(),
+        },
+        Method::Joint | Method::Best => return Vec::new(),
+    };
+    let exact = |z_mm: f64| Sensed::exact(z_mm, numbered.points);
+    let plane_z = match (container.rim_height_mm, container.kind, &height) {
+        (Some(known_mm), _, _) => Ok(exact(known_mm)),
+        (None, Kind::Plate, _) => Ok(exact(0.0)),
+        (None, Kind::Bowl | Kind::Box, Some(Ok(height))) => Ok(height.number.clone()),
         (None, Kind::Bowl | Kind::Box, Some(Err(error))) => Err(*error),
         (None, Kind::Bowl | Kind::Box, None) => Err(MeasureError::NoHeight),
     };
-    let mut sizes: Vec<_> = height.map(|result| (Quantity::Height, result)).into_iter().collect();
-    for quantity in [Quantity::Diameter, Quantity::Width, Quantity::Length] {
-        let found = Span::of_marks(container.shape, quantity, marks);
-        if !found.is_empty() {
-            sizes.push((quantity, plane_z_mm.and_then(|z_mm| mean_span(view, quantity, &found, z_mm))));
-        }
-    }
+    let mut sizes: Sizes = height.map(|result| (Quantity::Height, result)).into_iter().collect();
+    sizes.extend(sizes_on_plane(view, container.shape, &numbered, &plane_z));
     sizes
 }
 
-fn marked_height(view: &View, method: Method, marks: &ObjectMarks) -> Option<Result<Measured, MeasureError>> {
-    let heights_mm: Vec<_> =
-        lines(marks, Quantity::Height).map(|[foot, rim]| height_mm(view, method, foot, rim)).collect();
-    if heights_mm.is_empty() {
-        return None;
-    }
-    Some(mean(heights_mm).map(|(predicted_mm, marks)| Measured {
-        quantity: Quantity::Height,
-        predicted_mm,
-        plane_z_mm: 0.0,
-        marks,
-    }))
-}
-
-fn lines(marks: &ObjectMarks, wanted: Quantity) -> impl Iterator<Item = [Point2<f64>; 2]> + '_ {
-    marks.marks.iter().filter_map(move |mark| match mark {
-        Mark::Line { quantity, ends_px } if *quantity == wanted => Some(*ends_px),
-        Mark::Line { .. } | Mark::Outline { .. } => None,
+/// Diameters, widths and lengths on the rim plane.
+fn sizes_on_plane(
+    view: &View,
+    shape: Shape,
+    marks: &Numbered<'_>,
+    plane_z: &Result<Sensed, MeasureError>,
+) -> impl Iterator<Item = (Quantity, Result<Sized, MeasureError>)> {
+    [Quantity::Diameter, Quantity::Width, Quantity::Length].into_iter().filter_map(move |quantity| {
+        let spans = Span::of_marks(shape, quantity, marks);
+        let size = || {
+            let plane_z = plane_z.as_ref().map_err(|error| *error)?;
+            let found = spans.iter().map(|span| span.size(view, quantity, plane_z)).collect::<Result<Vec<_>, _>>()?;
+            mean_of(quantity, &found, plane_z.value)
+        };
+        (!spans.is_empty()).then(|| (quantity, size()))
     })
 }
 
-fn mean_span(view: &View, quantity: Quantity, spans: &[Span<'_>], z_mm: f64) -> Result<Measured, MeasureError> {
-    let (predicted_mm, marks) = mean(spans.iter().map(|span| span.size_mm(view, quantity, z_mm)).collect())?;
-    Ok(Measured { quantity, predicted_mm, plane_z_mm: z_mm, marks })
+fn height_of_lines(view: &View, method: Method, marks: &Numbered<'_>) -> Option<Result<Sized, MeasureError>> {
+    let heights: Vec<_> = marks
+        .height_lines()
+        .map(|line| match method {
+            Method::Paper => line.by_paper(view, marks.points),
+            Method::Ray | Method::Coaxial | Method::Joint | Method::Best => line.by_ray(view, marks.points),
+        })
+        .collect();
+    if heights.is_empty() {
+        return None;
+    }
+    let all: Result<Vec<_>, _> = heights.into_iter().collect();
+    Some(all.and_then(|all| mean_of(Quantity::Height, &all, 0.0)))
 }
 
-/// Standard deviation of a size on the plane `z_mm`, per pixel of standard deviation of each marked coordinate. The plane
-/// is taken as known.
-pub(crate) fn spans_sigma_per_px(
-    view: &View,
-    shape: Shape,
-    quantity: Quantity,
-    marks: &ObjectMarks,
-    z_mm: f64,
-) -> Result<f64, MeasureError> {
-    let spans = Span::of_marks(shape, quantity, marks);
-    sigma_of_mean(spans.iter().map(|span| span.sigma_per_px(view, quantity, z_mm)))
+/// None where the object is no round bowl with both circles marked.
+fn coaxial_height(view: &View, container: &Container, marks: &Numbered<'_>) -> Option<Result<Sized, MeasureError>> {
+    if container.kind != Kind::Bowl || container.shape != Shape::Circle {
+        return None;
+    }
+    let sized = |found: round::Coaxial| Sized {
+        measured: Measured { quantity: Quantity::Height, predicted_mm: found.height.value, plane_z_mm: 0.0, marks: 1 },
+        number: found.height,
+        wall_slope: Some(found.wall_slope),
+    };
+    Some(coaxial(view, marks)?.map(sized))
 }
 
-/// The same for the height of a wall, by central differences of one pixel.
-pub(crate) fn height_sigma_per_px(view: &View, method: Method, marks: &ObjectMarks) -> Result<f64, MeasureError> {
-    sigma_of_mean(lines(marks, Quantity::Height).map(|[foot, rim]| {
-        let mut variance = 0.0;
-        for step in [Vector2::x() * 0.5, Vector2::y() * 0.5] {
-            let by_foot = height_mm(view, method, foot + step, rim)? - height_mm(view, method, foot - step, rim)?;
-            let by_rim = height_mm(view, method, foot, rim + step)? - height_mm(view, method, foot, rim - step)?;
-            variance += by_foot.powi(2) + by_rim.powi(2);
-        }
-        Ok(variance.sqrt())
-    }))
-}
-
-/// SD of the mean of independent values with these SDs.
-fn sigma_of_mean(sigmas: impl Iterator<Item = Result<f64, MeasureError>>) -> Result<f64, MeasureError> {
-    let (variance, n) = mean(sigmas.map(|sigma| sigma.map(|s| s * s)).collect())?;
-    #[expect(clippy::cast_precision_loss, reason = "a count of marks is far below 2^53")]
-    Ok((variance / n as f64).sqrt())
-}
-
-fn mean(values: Vec<Result<f64, MeasureError>>) -> Result<(f64, usize), MeasureError> {
-    let n = values.len();
-    let sum = values.into_iter().sum::<Result<f64, MeasureError>>()?;
-    #[expect(clippy::cast_precision_loss, reason = "a count of marks is far below 2^53")]
-    Ok((sum / n as f64, n))
+fn mean_of(quantity: Quantity, found: &[Sensed], plane_z_mm: f64) -> Result<Sized, MeasureError> {
+    let number = Sensed::mean(found).ok_or(MeasureError::NoLength)?;
+    let measured = Measured { quantity, predicted_mm: number.value, plane_z_mm, marks: found.len() };
+    Ok(Sized { measured, number, wall_slope: None })
 }

@@ -4,6 +4,7 @@ use std::str::FromStr;
 
 use crate::container::{Kind, Method, Quantity, Shape};
 use crate::frame_log::FrameReason;
+use crate::fusion::Verdict;
 use crate::results::level::Level;
 use crate::time::UtcNs;
 
@@ -112,7 +113,7 @@ macro_rules! coded_cell {
     };
 }
 
-coded_cell!(Kind, Shape, Quantity, Method, Level, FrameReason);
+coded_cell!(Kind, Shape, Quantity, Method, Level, FrameReason, Verdict);
 
 impl<T: Cell> Cell for Option<T> {
     const TYPE: ColumnType = T::TYPE;

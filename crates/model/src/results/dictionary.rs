@@ -17,7 +17,7 @@ pub fn dictionary_markdown() -> String {
          Schema version {RESULTS_SCHEMA_VERSION}. It rises when a column is removed or renamed, or changes its type, unit \
          or meaning; a new column at the end does not raise it.\n\
          Rows of results.parquet are ordered by session; in it first those of level frame by time, image, object, rater, \
-         quantity and method, then the fused ones by object, rater, quantity and method. Rows of frames.parquet are ordered \
+         quantity and method, then the fused ones by object, rater, quantity and method, then those of level consensus likewise. Rows of frames.parquet are ordered \
          by session, then by time, with the images that could not be used last. The key-value metadata `aim_batch.run` of both files is a JSON object with program version, commit, resolved \
          settings, tables, status of every session and SHA-256 of the inputs: of each file of the study, and of each card one \
          (`cards/SESSION`) over the lines `sha256  path` of its files, which the recording's `aim_batch.inputs` lists. \

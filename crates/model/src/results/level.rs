@@ -7,5 +7,6 @@ coded_enum! {
     Level {
         Frame = "frame": "one image",
         Fused = "fused": "the selected images of a session together",
+        Consensus = "consensus": "the selected images of a session and all their raters together",
     }
 }

@@ -6,6 +6,7 @@ use super::cell::{Cell, CellError, ColumnType, Value};
 use super::level::Level;
 use crate::container::{Kind, Method, Quantity, Shape};
 use crate::frame_log::FrameReason;
+use crate::fusion::Verdict;
 use crate::time::UtcNs;
 
 /// Version of both schemas. It rises when a column is removed, renamed, or changes its type, unit or meaning; a new
@@ -87,29 +88,39 @@ schema! {
         shape: Shape = "circle, square or rectangle",
         setup_height_mm: Option<f64> = "nominal height of the camera above the table, on a bench",
         setup_pitch_deg: Option<f64> = "nominal pitch, on a bench",
-        rater: String = "who marked",
+        rater: String = "who marked; all for consensus rows",
         image: Option<String> = "file of the image, relative to the card; empty for fused rows",
         time_utc: Option<UtcNs> = "time of the image; empty for fused rows",
         pitch_deg: Option<f64> = "depression of the optical axis below the horizontal; fused: mean of the images",
         roll_deg: Option<f64> = "roll, positive clockwise as the wearer sees it; fused: mean of the images",
         range_mm: Option<f64> = "distance to the table along the optical axis; fused: mean of the images",
         quantity: Quantity = "diameter, width, length or height",
-        method: Method = "how marks became a size: paper or ray",
-        level: Level = "frame (one image) or fused (the selected images of the session)",
+        method: Method = "how marks became a size: paper, ray, coaxial, joint or best (docs/uncertainty.md)",
+        level: Level = "frame (one image), fused (the selected images of the session) or consensus (those of all raters)",
         predicted_mm: Option<f64> = "the measured size; empty when it could not be measured (flags say why)",
         sigma_mm: Option<f64> = "standard uncertainty (k = 1) of predicted_mm from the sources below",
-        sigma_pitch_mm: Option<f64> = "its part from the pitch (accelerometer and mount offset)",
+        sigma_pitch_mm: Option<f64> = "its part from the pitch of the device (accelerometer)",
         sigma_roll_mm: Option<f64> = "its part from the roll",
         sigma_range_mm: Option<f64> = "its part from the range",
         sigma_marks_mm: Option<f64> = "its part from the marks",
-        sigma_camera_mm: Option<f64> = "its part from the focal length and the principal point",
+        sigma_camera_mm: Option<f64> = "its part from focal length, principal point and lens",
         plane_z_mm: Option<f64> = "height of the plane that the size was measured on",
         truth_mm: Option<f64> = "true size from objects.csv",
         error_pct: Option<f64> = "100 (predicted_mm - truth_mm) / truth_mm",
         selected: bool = "whether the image counts for fused rows: still, pitch within the target window; true for fused rows",
         frames: u32 = "number of images behind the row",
         spread_mm: Option<f64> = "sample SD between the images of a fused row; empty for fewer than two",
-        flags: String = "codes of what to know about the row, joined by commas: why the frame was not selected (docs/ledger.md), mark_outside_picture, or why there is no size; empty when there is nothing",
+        flags: String = "codes of what to know about the row, joined by commas: why the frame was not selected (docs/ledger.md), mark_outside_picture, outlier:IMAGE or outlier_rater:RATER for what lies too far off and counts less, or why there is no size; empty when there is nothing",
+        method_used: Option<Method> = "the method behind predicted_mm: for best the one that was taken, else the same as method; empty without a size",
+        doubts: String = "assumptions of the method that are broken or not known to hold (docs/uncertainty.md), joined by commas; sigma_mm leaves them out; empty when there is nothing",
+        sigma_mount_mm: Option<f64> = "part of sigma_mm from the angle of the camera on the device",
+        sigma_common_mm: Option<f64> = "part of sigma_mm from what all images of the session share; it does not shrink with their number",
+        wall_slope: Option<f64> = "radius of a round rim less that of its base, per height; joint: how far the rim overhangs its foot away from the wearer, per height",
+        rank: Option<u32> = "rank of a selected image for this size, 1 being the surest; by sigma_mm, penalised for motion and unsteady range (docs/uncertainty.md)",
+        weight: Option<f64> = "share of this image in the fused row",
+        chi_squared: Option<f64> = "chi-square of what was fused about its mean, correlations counted",
+        chi_squared_degrees: Option<u32> = "its degrees of freedom",
+        consistency: Option<Verdict> = "whether what was fused differs by no more than its uncertainties allow: consistent or inconsistent",
     }
 }
 
@@ -137,6 +148,8 @@ schema! {
         sizes: u32 = "number of sizes measured on the image, over raters and methods",
         range_distinct: u32 = "readings of the range sensor behind range_samples: values that it held over several records count once",
         flags: String = "codes of what to know about the image's signals, joined by commas (docs/ledger.md); empty when there is nothing",
+        plate_sigma_mm: Option<f64> = "of a selected image: standard uncertainty that a plate of 200 mm would have, marked by its rim where the camera looks, penalised for motion and unsteady range (docs/uncertainty.md)",
+        rank: Option<u32> = "rank of a selected image of its session by plate_sigma_mm, 1 being the surest: the ones to mark first",
     }
 }
 
@@ -176,6 +189,8 @@ impl FrameRow {
             sizes: 0,
             range_distinct: 0,
             flags: String::new(),
+            plate_sigma_mm: None,
+            rank: None,
         }
     }
 }

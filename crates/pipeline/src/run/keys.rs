@@ -7,6 +7,7 @@ use ingest::Fingerprint;
 use model::CameraSpec;
 use serde::Serialize;
 
+use crate::calibrate::CalibrationFile;
 use crate::inputs::{sha256_of_bytes, sha256_of_file};
 use crate::session::Prepared;
 use crate::signals::ReadingSettings;
@@ -15,7 +16,7 @@ use crate::study::{MeasureSpec, SelectSpec, SessionDir, SessionSpec, SignalsSpec
 /// Version of what the signals stage gives. A change of meaning gives another number, and recordings are read anew.
 const SIGNALS_VERSION: u32 = 1;
 /// Version of what measuring gives, likewise.
-const MEASURE_VERSION: u32 = 1;
+const MEASURE_VERSION: u32 = 2;
 
 #[derive(Serialize)]
 struct SignalsParts<'a> {
@@ -51,6 +52,7 @@ pub(super) struct MeasureParts<'a> {
     mount_pitch_deg: Option<f64>,
     measure: &'a MeasureSpec,
     uncertainty: &'a UncertaintySpec,
+    calibration: Option<&'a CalibrationFile>,
     marks_camera: &'a CameraSpec,
     objects_csv: &'a str,
     raters: Vec<&'a str>,
@@ -78,6 +80,7 @@ impl<'a> MeasureParts<'a> {
             mount_pitch_deg: spec.mount.pitch_offset_deg,
             measure: &spec.measure,
             uncertainty: &spec.uncertainty,
+            calibration: study.calibration.as_ref(),
             marks_camera: &prepared.marks_camera.0,
             objects_csv,
             raters: dir.marks.keys().map(String::as_str).collect(),

@@ -119,6 +119,7 @@ fn settings(study: &Study) -> Result<serde_json::Value, serde_json::Error> {
         "camera": study.camera_spec,
         "marks_camera": study.marks_camera.as_ref().map(|(spec, _)| spec),
         "device_profile": study.profile,
+        "calibration": study.calibration,
     }))
 }
 

@@ -1,12 +1,16 @@
 //! The road of one session: card -> MCAP -> signals -> marks -> sizes -> rows.
 
+mod bench;
 mod fuse;
 mod lag;
+mod ledger;
 mod marks;
+mod measurement;
 mod prepared;
 mod problems;
 mod recording;
-mod rows;
+mod row;
+mod surest;
 #[cfg(test)]
 mod tests;
 
@@ -17,16 +21,17 @@ use ingest::{DroppedImage, ImageEntry, IngestError, IngestProgress};
 use model::{Camera, FrameRow, Problem, ResultRow, SessionStatus, Severity, Stage};
 use serde::{Deserialize, Serialize};
 
+use crate::calibrate::BenchSession;
 use crate::reporter::Reporter;
 use crate::signals::{FrameSignals, Reading};
 use crate::stop::Stop;
 use crate::study::{SessionDir, SessionSpec, Study};
+use ledger::ledger_of_failed;
 use marks::SessionMarks;
 pub(crate) use prepared::Prepared;
 use problems::no_pose;
 pub(crate) use problems::without_host;
 pub(crate) use recording::{BAD_MCAP, Recording, read as read_recording};
-use rows::ledger_of_failed;
 
 /// What one session gives.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -39,6 +44,9 @@ pub(crate) struct SessionOutput {
     pub frames: Vec<FrameRow>,
     /// SHA-256 of what was read, by path relative to the study.
     pub inputs_sha256: BTreeMap<String, String>,
+    /// Known sizes, where a calibration asks for them.
+    #[serde(skip)]
+    pub bench: BenchSession,
 }
 
 /// How [`run_session`] treats a session.
@@ -176,9 +184,15 @@ pub(crate) fn measure(
     reporter.stage(&dir.name, Stage::Marks);
     let marks = SessionMarks::read(&session, &mut output);
     reporter.stage(&dir.name, Stage::Measure);
-    output.results = rows::measure_all(&session, &marks, &mut output.status.problems);
-    output.results.extend(fuse::fuse(&output.results));
-    output.frames = rows::ledger(&session, &marks, &output.results);
+    let marked = measurement::marked(&session, &marks, &mut output.status.problems);
+    if study.is_bench {
+        output.bench = bench::of(&session, &marked);
+    }
+    let mut measurements = measurement::measure_all(&marked, &mut output.status.problems);
+    let fused = fuse::fuse(study, &marked, &mut measurements);
+    let asked = |row: &ResultRow| study.spec.measure.methods.contains(&row.method);
+    output.results = measurements.into_iter().map(|measurement| measurement.row).filter(asked).chain(fused).collect();
+    output.frames = ledger::ledger(&session, &marks, &output.results);
     output.status.images = output.frames.len();
     output.status.with_pose = session.frames.iter().filter(|f| f.signals.pose.is_some()).count();
     output.status.problems.extend(no_pose(&session));

@@ -74,7 +74,7 @@ fn the_cone_moves_the_range_of_ray_and_not_of_paper() {
         let frame = output.frames.iter().find(|frame| Some(&frame.image) == row.image.as_ref()).unwrap();
         let ratio = frame.range_mm.unwrap() / row.range_mm.unwrap();
         // At 38 degrees the reading is 2.5 % short.
-        let expected = if row.method == Method::Paper { 1.0 } else { 0.975 };
+        let expected = if row.method_used == Some(Method::Paper) { 1.0 } else { 0.975 };
         assert!((ratio - expected).abs() < 0.003, "{} {ratio}", row.method);
         seen += 1;
     }
@@ -89,4 +89,50 @@ fn a_declared_lag_moves_where_signals_are_looked_up() {
     let (near, plain) = (run_frames(2.0), run_frames(0.0));
     assert!(near.iter().zip(&plain).all(|(near, plain)| near.time_utc == plain.time_utc));
     assert!(near.iter().zip(&plain).any(|(near, plain)| near.pitch_deg != plain.pitch_deg));
+}
+
+/// Every size comes with the parts of its uncertainty, and the best of the methods says which it took.
+#[test]
+fn the_best_is_one_of_the_others_and_says_which() {
+    let output = run(|_| ());
+    let frames: Vec<_> = output.results.iter().filter(|row| row.level == model::Level::Frame).collect();
+    let best: Vec<_> = frames.iter().filter(|row| row.method == Method::Best).collect();
+    assert!(!best.is_empty() && best.len() * 3 == frames.len(), "paper, ray and best; no base is outlined");
+    for row in best {
+        let same = |other: &&&ResultRow| {
+            (&other.image, &other.object, &other.rater, other.quantity)
+                == (&row.image, &row.object, &row.rater, row.quantity)
+                && other.method == row.method_used.unwrap()
+        };
+        let taken = frames.iter().find(same).unwrap();
+        assert_eq!((taken.predicted_mm, taken.sigma_mm, &taken.doubts), (row.predicted_mm, row.sigma_mm, &row.doubts));
+        assert!(row.sigma_common_mm.unwrap() < row.sigma_mm.unwrap());
+    }
+    // Nobody said how the walls of these bowls stand.
+    let heights = frames.iter().filter(|row| row.quantity == model::Quantity::Height && row.method == Method::Ray);
+    assert!(heights.clone().count() > 0);
+    assert!(heights.into_iter().all(|row| row.doubts == "wall_assumed_vertical"));
+}
+
+#[test]
+fn only_what_was_asked_for_is_given() {
+    let output = run(|spec| spec.measure.methods = vec![Method::Best]);
+    assert!(!output.results.is_empty() && output.results.iter().all(|row| row.method == Method::Best));
+    assert!(output.results.iter().all(|row| row.method_used.is_some_and(|used| used != Method::Best)));
+}
+
+/// Ranks need no marks, and the rank says which image is the surest.
+#[test]
+fn selected_images_are_ranked_before_they_are_marked() {
+    let output = run(|spec| spec.select.target_pitch_deg = 38.0);
+    let mut selected: Vec<_> =
+        output.frames.iter().filter(|frame| frame.reason == model::FrameReason::Selected).collect();
+    assert!(selected.len() > 3);
+    selected.sort_by_key(|frame| frame.rank);
+    let ranks: Vec<_> = selected.iter().map(|frame| frame.rank.unwrap() as usize).collect();
+    assert_eq!(ranks, (1..=selected.len()).collect::<Vec<_>>());
+    assert!(selected.windows(2).all(|pair| pair[0].plate_sigma_mm <= pair[1].plate_sigma_mm));
+    assert!(selected[0].plate_sigma_mm.unwrap() > 6.0, "3 % of range alone are 6 mm");
+    let others = output.frames.iter().filter(|frame| frame.reason != model::FrameReason::Selected);
+    assert!(others.into_iter().all(|frame| frame.rank.is_none()));
 }

@@ -99,20 +99,17 @@ impl StudySpec {
         }
         let positive = "a positive number";
         let not_negative = "zero or a positive number";
-        let (signals, select, sigma) = (&self.signals, &self.select, &self.uncertainty);
+        let (signals, select) = (&self.signals, &self.select);
         for (key, got, least, expected) in [
             ("signals.gravity_tolerance_mg", signals.gravity_tolerance_mg, f64::MIN_POSITIVE, positive),
             ("signals.stillness_max_mg", signals.stillness_max_mg, f64::MIN_POSITIVE, positive),
             ("signals.range_min_mm", signals.range_min_mm, 0.0, not_negative),
             ("select.pitch_tolerance_deg", select.pitch_tolerance_deg, 0.0, not_negative),
-            ("uncertainty.pitch_deg", sigma.pitch_deg, 0.0, not_negative),
-            ("uncertainty.tilt_deg", sigma.tilt_deg, 0.0, not_negative),
-            ("uncertainty.range_pct", sigma.range_pct, 0.0, not_negative),
-            ("uncertainty.mark_px", sigma.mark_px, 0.0, not_negative),
-            ("uncertainty.focal_pct", sigma.focal_pct, 0.0, not_negative),
-            ("uncertainty.principal_px", sigma.principal_px, 0.0, not_negative),
         ] {
             in_range(key, got, least, f64::MAX, expected)?;
+        }
+        for (key, got) in self.uncertainty.keys() {
+            in_range(key, got, 0.0, f64::MAX, not_negative)?;
         }
         in_range(
             "signals.range_max_mm",

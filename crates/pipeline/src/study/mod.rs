@@ -6,6 +6,7 @@ mod objects;
 mod printed;
 mod sessions;
 mod spec;
+mod uncertainty;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,14 +14,16 @@ use std::path::{Path, PathBuf};
 use ingest::Profile;
 use model::{Camera, CameraSpec, TableSpec};
 
+use crate::calibrate::CalibrationFile;
 pub use error::StudyError;
 pub use objects::Object;
 pub(crate) use sessions::marks_in;
 pub use sessions::{SessionDir, SessionSpec};
 pub use spec::{
     GravityCalibrate, MarksSpec, MeasureSpec, MountSpec, PrintedFiles, RangeCone, SelectSpec, SignalsSpec, StudySpec,
-    TableEntry, TimeSpec, UncertaintySpec,
+    TableEntry, TimeSpec,
 };
+pub use uncertainty::UncertaintySpec;
 
 /// A study whose settings have been read and checked.
 #[derive(Debug, Clone)]
@@ -43,6 +46,10 @@ pub struct Study {
     pub time_zone: jiff::tz::TimeZone,
     /// Sessions, by name: those with a card, and those that are only marked.
     pub sessions: Vec<SessionDir>,
+    /// What a bench has taught about the device, where a run is told of it.
+    pub calibration: Option<CalibrationFile>,
+    /// Whether sessions are to keep their known sizes, for a calibration.
+    pub(crate) is_bench: bool,
 }
 
 impl Study {
@@ -70,10 +77,22 @@ impl Study {
             sessions: sessions::find(dir)?,
             dir: dir.to_owned(),
             spec,
+            calibration: None,
+            is_bench: false,
         };
         camera_of(&study.spec.camera, &study.camera_spec)?;
         study.check_tables()?;
         Ok(study)
+    }
+
+    /// The study with a calibration, whose range cone it takes over.
+    #[must_use]
+    pub fn calibrated(mut self, calibration: CalibrationFile) -> Self {
+        if let Some(physical) = &calibration.physical {
+            self.spec.signals.range_cone = physical.range_cone;
+        }
+        self.calibration = Some(calibration);
+        self
     }
 
     /// The camera of a session: its own, or the study's.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use model::{Container, Kind, Quantity, Shape};
+use model::{Container, Kind, Quantity, Shape, Wall};
 use serde::Deserialize;
 
 use super::StudyError;
@@ -34,6 +34,8 @@ struct Line {
     true_height_mm: Option<f64>,
     #[serde(default)]
     rim_height_mm: Option<f64>,
+    #[serde(default)]
+    wall: Option<Wall>,
 }
 
 /// Reads objects.csv.
@@ -58,7 +60,8 @@ pub(super) fn read_objects(path: &Path) -> Result<BTreeMap<String, Object>, Stud
         {
             return Err(refuse(format!("size {bad} mm of '{}': expected a positive number", line.object)));
         }
-        let container = Container { kind: line.kind, shape: line.shape, rim_height_mm: line.rim_height_mm };
+        let container =
+            Container { kind: line.kind, shape: line.shape, rim_height_mm: line.rim_height_mm, wall: line.wall };
         let truth_mm = sizes.into_iter().filter_map(|(quantity, size)| Some((quantity, size?))).collect();
         if objects.insert(line.object.clone(), Object { container, truth_mm }).is_some() {
             return Err(refuse(format!("object '{}' stands here a second time", line.object)));

@@ -1,7 +1,11 @@
 //! study.toml as it is written, with the defaults of what may be left out.
 
-use model::{InputSigma, Kind, Method, Note, Quantity, Selection, TableLayout};
+use std::num::NonZeroUsize;
+
+use model::{Kind, Method, Note, Quantity, Selection, TableLayout};
 use serde::{Deserialize, Serialize};
+
+use super::UncertaintySpec;
 
 /// The version of study.toml that this program reads.
 pub(crate) const STUDY_SCHEMA_VERSION: u32 = 1;
@@ -152,11 +156,13 @@ pub struct SelectSpec {
     pub target_pitch_deg: f64,
     /// Half width of the window around it.
     pub pitch_tolerance_deg: f64,
+    /// So many images, the surest ones, go into a fused size; all of them when left out.
+    pub best_images: Option<NonZeroUsize>,
 }
 
 impl Default for SelectSpec {
     fn default() -> Self {
-        Self { target_pitch_deg: 55.0, pitch_tolerance_deg: 7.5 }
+        Self { target_pitch_deg: 55.0, pitch_tolerance_deg: 7.5, best_images: None }
     }
 }
 
@@ -171,45 +177,6 @@ pub struct MeasureSpec {
 impl Default for MeasureSpec {
     fn default() -> Self {
         Self { methods: Method::ALL.to_vec() }
-    }
-}
-
-/// `[uncertainty]`: standard uncertainties (k = 1).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct UncertaintySpec {
-    /// Pitch: 17 mg of zero-g offset (ADXL362 data sheet: tens of mg) are 1 degree.
-    pub pitch_deg: f64,
-    /// Sideways tilt, likewise; the roll is uncertain by this over cos(pitch).
-    pub tilt_deg: f64,
-    /// Range, in per cent (VL53L0X data sheet: about 3 % uncalibrated).
-    pub range_pct: f64,
-    /// One coordinate of a mark set by hand.
-    pub mark_px: f64,
-    /// Focal length, in per cent.
-    pub focal_pct: f64,
-    /// Each coordinate of the principal point.
-    pub principal_px: f64,
-}
-
-impl Default for UncertaintySpec {
-    fn default() -> Self {
-        Self { pitch_deg: 1.0, tilt_deg: 1.0, range_pct: 3.0, mark_px: 2.0, focal_pct: 0.5, principal_px: 5.0 }
-    }
-}
-
-impl UncertaintySpec {
-    /// In the units of the mathematics.
-    #[must_use]
-    pub fn inputs(&self) -> InputSigma {
-        InputSigma {
-            pitch_rad: self.pitch_deg.to_radians(),
-            tilt_rad: self.tilt_deg.to_radians(),
-            range_relative: self.range_pct / 100.0,
-            mark_px: self.mark_px,
-            focal_relative: self.focal_pct / 100.0,
-            principal_px: self.principal_px,
-        }
     }
 }
 

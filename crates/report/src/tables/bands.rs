@@ -73,6 +73,27 @@ fn height_band(row: &ResultRow) -> Option<Band> {
     height_mm.is_finite().then_some(Band { basis: Some("measured"), from, to })
 }
 
+/// Name of a row's band of pitch.
+pub(super) fn pitch_name(row: &ResultRow) -> Option<String> {
+    pitch_band(row).map(|band| band_name(band, "deg"))
+}
+
+/// Name of a row's band of height of the camera.
+pub(super) fn height_name(row: &ResultRow) -> Option<String> {
+    height_band(row).map(|band| band_name(band, "cm"))
+}
+
+#[expect(clippy::cast_precision_loss, reason = "borders are far below 2^53")]
+fn band_name(band: Band, unit: &str) -> String {
+    // Sorted as text, so three digits before the point.
+    let border = |thousandths: i64| format!("{:05.1}", thousandths as f64 / 1e3);
+    if band.from == band.to {
+        format!("{} {unit}", border(band.from))
+    } else {
+        format!("{}-{} {unit}", border(band.from), border(band.to))
+    }
+}
+
 #[expect(clippy::cast_possible_truncation, reason = "the float-to-integer cast saturates, far beyond any height")]
 fn thousandths(value: f64) -> i64 {
     (value * 1e3).round() as i64

@@ -1,10 +1,13 @@
 //! From results to tables.
 
+mod accuracy;
+mod agreement;
 mod bands;
 mod errors;
 mod flow;
 mod footnotes;
 mod left_out;
+mod methods;
 mod printed;
 mod raters;
 mod select;
@@ -13,9 +16,12 @@ mod sizes;
 
 use model::{TableLayout, TableSpec};
 
+pub use accuracy::accuracy;
+pub use agreement::rater_agreement;
 pub use bands::{error_by_height, error_by_pitch};
 pub use flow::{flow, flow_in_short};
 pub use left_out::left_out;
+pub use methods::methods;
 pub use sizes::sizes;
 
 use crate::parquet::Results;

@@ -6,8 +6,8 @@ use super::errors::row_error_pct;
 use crate::parquet::Results;
 use crate::table::{Cell, Column, Format, RowKind, Table, TableRow};
 
-const STATISTIC: &str = "Size: mean over the selected images of the session. Sigma: its predicted standard uncertainty \
-                         (k = 1). Spread: sample SD between the images.";
+const STATISTIC: &str = "Size: robust mean of the selected images of the session, weighted by inverse variance. Sigma: its \
+                         predicted standard uncertainty (k = 1). Spread: sample SD between the images.";
 
 /// The fused size of every object of every session, by rater, quantity and method.
 #[must_use]

@@ -41,6 +41,16 @@ pub fn row(object: &str, kind: Kind, quantity: Quantity, predicted_mm: Option<f6
         frames: 1,
         spread_mm: None,
         flags: String::new(),
+        method_used: predicted_mm.map(|_| Method::Paper),
+        doubts: String::new(),
+        sigma_mount_mm: None,
+        sigma_common_mm: None,
+        wall_slope: None,
+        rank: None,
+        weight: None,
+        chi_squared: None,
+        chi_squared_degrees: None,
+        consistency: None,
     }
 }
 

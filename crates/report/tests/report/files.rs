@@ -17,14 +17,14 @@ fn every_table_in_three_formats_and_one_document_with_the_statement_once() {
     let dir = tempfile::tempdir().unwrap();
     let target = dir.path().join("new/tables");
     write_dir(&bench::plates(), &target).unwrap();
-    let stems = ["error_by_height", "error_by_pitch", "sizes", "table_I"];
+    let stems = ["accuracy", "error_by_height", "error_by_pitch", "sizes", "table_I"];
     let mut expected: Vec<String> =
         stems.iter().flat_map(|stem| ["csv", "md", "tex"].map(|extension| format!("{stem}.{extension}"))).collect();
     expected.push("tables.md".to_owned());
     expected.sort();
     assert_eq!(names(&target), expected, "and no temporary file is left");
     let document = std::fs::read_to_string(target.join("tables.md")).unwrap();
-    assert_eq!(document.matches("### ").count(), 4);
+    assert_eq!(document.matches("### ").count(), 5);
     assert_eq!(document.matches("proves arithmetic only").count(), 1);
     for file in ["table_I.md", "table_I.tex", "error_by_pitch.md"] {
         assert!(std::fs::read_to_string(target.join(file)).unwrap().contains("proves arithmetic only"), "{file}");

@@ -13,3 +13,4 @@ mod misuse;
 mod parquet;
 mod sizes;
 mod statistics;
+mod validation;

@@ -1,7 +1,7 @@
 //! Rows to Parquet and back.
 
 use model::results::{Column, ColumnType, FRAME_COLUMNS, FrameRow, RESULT_COLUMNS, ResultRow, Row, Value};
-use model::{FrameReason, Kind, Level, Method, Quantity, ResultSink as _, RunLog, RunMetadata, Shape, UtcNs};
+use model::{FrameReason, Kind, Level, Method, Quantity, ResultSink as _, RunLog, RunMetadata, Shape, UtcNs, Verdict};
 use proptest::prelude::*;
 use report::{ParquetSink, Results, read_frames};
 
@@ -13,8 +13,9 @@ fn codes(column: &str) -> Option<Vec<&'static str>> {
         "kind" => Kind::ALL.iter().map(|code| code.code()).collect(),
         "shape" => Shape::ALL.iter().map(|code| code.code()).collect(),
         "quantity" => Quantity::ALL.iter().map(|code| code.code()).collect(),
-        "method" => Method::ALL.iter().map(|code| code.code()).collect(),
+        "method" | "method_used" => Method::ALL.iter().map(|code| code.code()).collect(),
         "level" => Level::ALL.iter().map(|code| code.code()).collect(),
+        "consistency" => Verdict::ALL.iter().map(|code| code.code()).collect(),
         "reason" => FrameReason::ALL.iter().map(|code| code.code()).collect(),
         _ => return None,
     })

@@ -6,11 +6,11 @@ use report::{Cell, RowKind, Table, error_by_height, error_by_pitch, tables};
 
 use crate::bench;
 
-fn column(table: &Table, name: &str) -> usize {
+pub fn column(table: &Table, name: &str) -> usize {
     table.columns.iter().position(|column| column.name == name).unwrap()
 }
 
-fn number(table: &Table, row: usize, name: &str) -> Option<f64> {
+pub fn number(table: &Table, row: usize, name: &str) -> Option<f64> {
     match &table.rows[row].cells[column(table, name)] {
         Cell::Empty => None,
         Cell::Number(number) => Some(*number),
@@ -19,7 +19,7 @@ fn number(table: &Table, row: usize, name: &str) -> Option<f64> {
     }
 }
 
-fn text<'a>(table: &'a Table, row: usize, name: &str) -> &'a str {
+pub fn text<'a>(table: &'a Table, row: usize, name: &str) -> &'a str {
     match &table.rows[row].cells[column(table, name)] {
         Cell::Text(text) => text,
         _ => "",

@@ -123,6 +123,7 @@ fn marks_measured_by_the_true_pose_give_the_true_sizes() {
             kind: object.kind,
             shape: serde_json::from_value(row["shape"].clone()).unwrap(),
             rim_height_mm: row["rim_height_mm"].as_f64(),
+            wall: None,
         };
         for sight in &gallery.sights {
             let head = sight.head;

@@ -56,7 +56,7 @@ pub(super) fn container_of(object: &str) -> Container {
         Kind::Plate if object.starts_with("square") => Shape::Square,
         Kind::Plate | Kind::Bowl => Shape::Circle,
     };
-    Container { kind, shape, rim_height_mm: None }
+    Container { kind, shape, rim_height_mm: None, wall: None }
 }
 
 /// The size across that is marked on an object.

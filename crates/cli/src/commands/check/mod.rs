@@ -14,7 +14,7 @@ use crate::progress::Bars;
 
 /// Checks the study, and tells what would be lost.
 pub fn run(args: &CheckArgs, bars: &Bars) -> Result<Outcome, Failure> {
-    let study = Study::load(&args.study, |spec| settings::apply(&args.settings, spec)).map_err(Failure::usage)?;
+    let study = settings::load(&args.study, &args.settings)?;
     let options = SurveyOptions { jobs: args.jobs, program: PROGRAM.to_owned(), stop: stop_on_signals()? };
     let checked = pipeline::check(&study, &options, &bars.for_run()).map_err(survey_failure)?;
     if args.json {

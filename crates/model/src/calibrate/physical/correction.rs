@@ -1,0 +1,47 @@
+//! What is wrong with readings, and readings put right.
+
+use nalgebra::{Rotation3, Vector3};
+
+use crate::camera::Camera;
+use crate::pose::Pose;
+use crate::view::View;
+
+/// Corrections of readings. All zero: none.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Correction {
+    /// Added to the angle of the camera on the device. It holds what the accelerometer's pitch is off by, too: a bench cannot
+    /// tell the two apart, and nothing needs to.
+    pub mount_rad: f64,
+    /// true range = reading (1 + this) + [`Self::range_offset_mm`].
+    pub range_scale: f64,
+    /// See there.
+    pub range_offset_mm: f64,
+    /// True focal length = the camera's (1 + this).
+    pub focal_share: f64,
+}
+
+impl Correction {
+    /// The view as it is after the correction. None where no such pose or camera exists.
+    #[must_use]
+    pub fn apply(&self, view: &View) -> Option<View> {
+        let (pose, camera) = (view.pose(), view.camera());
+        let turn = Rotation3::from_axis_angle(&Vector3::x_axis(), self.mount_rad);
+        let (pitch_rad, roll_rad) = Pose::pitch_roll_of_down(&(turn * pose.down_in_camera())).ok()?;
+        let range_mm = pose.range_mm() * (1.0 + self.range_scale) + self.range_offset_mm;
+        let focal_px = camera.focal_px().map(|f| f * (1.0 + self.focal_share));
+        let camera =
+            Camera::new(camera.size_px(), focal_px, camera.principal_px(), camera.skew_px(), *camera.lens()).ok()?;
+        Some(View::new(camera, Pose::new(pitch_rad, roll_rad, range_mm).ok()?))
+    }
+
+    pub(super) fn of(values: &[f64; 4]) -> Self {
+        let [mount_rad, range_scale, range_offset_mm, focal_share] = *values;
+        Self { mount_rad, range_scale, range_offset_mm, focal_share }
+    }
+
+    /// In the order of [`LEARNED`].
+    #[must_use]
+    pub fn values(&self) -> [f64; 4] {
+        [self.mount_rad, self.range_scale, self.range_offset_mm, self.focal_share]
+    }
+}

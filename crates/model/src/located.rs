@@ -1,0 +1,62 @@
+//! A marked point on a level plane, with its derivatives by everything it was worked out from.
+
+use nalgebra::{Matrix2, Point2, SMatrix, Vector2, Vector3};
+
+use crate::source::{SOURCES, Source};
+use crate::view::{View, ViewError};
+
+/// Derivatives of a point on a plane by the [`Source`]s, one column each.
+pub(crate) type BySource = SMatrix<f64, 2, SOURCES>;
+
+/// A marked point on a level plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Located {
+    /// World X and Y in mm.
+    pub point_mm: Point2<f64>,
+    /// By the sources that all marks of a picture share.
+    pub by_source: BySource,
+    /// By its own pixel, in mm per px.
+    pub by_pixel: Matrix2<f64>,
+    /// By the height of the plane, in mm per mm.
+    pub by_plane_z: Vector2<f64>,
+}
+
+impl Located {
+    /// Place of `pixel` on the plane `plane_z_mm`.
+    ///
+    /// With r the ray in the world frame, q = -r.z and h the camera's height above the plane, P = r.xy h / q. A small turn
+    /// of the camera turns r, and a change of pitch or range changes h as well; derivatives of rotations are cross products.
+    pub(crate) fn of(view: &View, pixel: Point2<f64>, plane_z_mm: f64) -> Result<Self, ViewError> {
+        let point_mm = view.on_plane(pixel, plane_z_mm)?;
+        let (ray_in_camera, ray_by_pixel) = view.camera().ray_and_derivative(pixel)?;
+        let pose = view.pose();
+        let world_from_camera = pose.world_from_camera();
+        let ray = world_from_camera * ray_in_camera;
+        let (q, above_mm) = (-ray.z, pose.camera_height_mm() - plane_z_mm);
+        // P by r: h / q [I2, xy / q].
+        let by_ray = |turn: Vector3<f64>| (turn.xy() + ray.xy() * (turn.z / q)) * (above_mm / q);
+        let by_height = ray.xy() / q;
+        let columns = world_from_camera * ray_by_pixel;
+        let by_pixel = Matrix2::from_columns(&[by_ray(columns.column(0).into()), by_ray(columns.column(1).into())]);
+        let (sin_w, cos_w) = pose.pitch_rad().sin_cos();
+        let (sin_p, cos_p) = pose.roll_rad().sin_cos();
+        // Pitching down turns forward to down: (x, y, -q) by (0, -q, -y).
+        let by_pitch = by_ray(Vector3::new(0.0, -q, -ray.y)) + by_height * (pose.range_mm() * cos_w);
+        // Tilting to the right turns left to down: (x, y, -q) by (-q, 0, -x).
+        let by_tilt = by_ray(Vector3::new(-q, 0.0, -ray.x));
+        let by_range = by_height * sin_w;
+        let mut by_source = BySource::zeros();
+        let mut set = |source: Source, column: Vector2<f64>| by_source.set_column(source.index(), &column);
+        set(Source::Pitch, by_pitch);
+        set(Source::Tilt, by_tilt);
+        // About the camera's x axis: dw = cos p dm, and cos w dp = sin p sin w dm.
+        set(Source::Mount, by_pitch * cos_p + by_tilt * (sin_p * sin_w));
+        set(Source::RangeScale, by_range * pose.range_mm());
+        set(Source::RangeOffset, by_range);
+        set(Source::Focal, by_pixel * view.camera().pixel_by_focal_share(pixel));
+        set(Source::PrincipalX, -by_pixel.column(0));
+        set(Source::PrincipalY, -by_pixel.column(1));
+        set(Source::Distortion, by_pixel * view.camera().pixel_by_corner_px(pixel));
+        Ok(Self { point_mm, by_source, by_pixel, by_plane_z: -by_height })
+    }
+}

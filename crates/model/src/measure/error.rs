@@ -1,0 +1,77 @@
+//! Why marks do not give a size.
+
+use crate::circle::CircleError;
+use crate::container::Shape;
+use crate::marks::Feature;
+use crate::view::ViewError;
+
+/// Why marks do not give a size.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum MeasureError {
+    /// A marked point has no place on its plane.
+    #[error(transparent)]
+    View(#[from] ViewError),
+    /// An outline does not give a circle.
+    #[error("{feature} outline: {source}")]
+    Circle {
+        /// Which outline.
+        feature: Feature,
+        /// Why.
+        source: CircleError,
+    },
+    /// A rim is marked, but its height is not known.
+    #[error(
+        "the rim's height is not known: mark a line OBJECT/height from the wall's foot on the table to the rim above it, \
+         or the outlines OBJECT/rim and OBJECT/base of a round bowl, or give the rim height"
+    )]
+    NoHeight,
+    /// The second end of a height line is not behind the first one.
+    #[error(
+        "the rim lies towards the wearer from the foot on the table plane: draw a height line from the wall's foot on the \
+         table to the rim above it, and do not swap the outlines of rim and base"
+    )]
+    RimBelowFoot,
+    /// A height that a wall seen from above cannot have.
+    #[error(
+        "a wall {height_mm:.0} mm high would reach above the camera, which is {camera_height_mm:.0} mm above the table"
+    )]
+    RimAboveCamera {
+        /// The height found.
+        height_mm: f64,
+        /// Height of the camera.
+        camera_height_mm: f64,
+    },
+    /// The base of a bowl lies under the camera, so that nothing tells its rim's centre from its base's.
+    #[error(
+        "the bowl stands under the camera: rim and base share one centre in the picture; use a picture from the side"
+    )]
+    BaseUnderCamera,
+    /// The ends of a line, or two corners, lie on one spot.
+    #[error("the marked points lie on one spot: draw the mark again")]
+    NoLength,
+    /// A rim polygon of a square or rectangle that is not four corners.
+    #[error("rim outline of a {shape}: expected its 4 corners, got {points} points")]
+    NotFourCorners {
+        /// The shape.
+        shape: Shape,
+        /// How many points there are.
+        points: usize,
+    },
+}
+
+impl MeasureError {
+    /// Stable code, as in the `flags` of the results.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::View(_) => "mark_off_plane",
+            Self::Circle { .. } => "no_circle",
+            Self::NoHeight => "no_height",
+            Self::RimBelowFoot => "rim_below_foot",
+            Self::RimAboveCamera { .. } => "rim_above_camera",
+            Self::BaseUnderCamera => "base_under_camera",
+            Self::NoLength => "no_length",
+            Self::NotFourCorners { .. } => "not_four_corners",
+        }
+    }
+}

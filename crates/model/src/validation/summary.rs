@@ -1,0 +1,65 @@
+//! Signed errors in one line.
+
+use crate::stats::{ErrorStats, median};
+
+/// Signed errors, in any unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorSummary {
+    /// How many.
+    pub n: usize,
+    /// Mean.
+    pub bias: f64,
+    /// Sample SD; none of a single one.
+    pub sd: Option<f64>,
+    /// Root mean square.
+    pub rmse: f64,
+    /// Mean of the absolute errors.
+    pub mae: f64,
+    /// Median of the signed errors.
+    pub median: f64,
+    /// 95 % of the absolute errors are no larger.
+    pub q95_absolute: f64,
+    /// Largest absolute error.
+    pub max_absolute: f64,
+    /// Limits of agreement, bias -+ 1.96 SD (Bland and Altman, Lancet 1986); none of a single one.
+    pub limits: Option<[f64; 2]>,
+}
+
+/// 95 % of a Gaussian lie within so many SDs.
+const K_95: f64 = 1.959_963_984_540_054;
+
+impl ErrorSummary {
+    /// None of no errors.
+    #[must_use]
+    pub fn of(errors: &[f64]) -> Option<Self> {
+        let stats = ErrorStats::of(errors)?;
+        let absolute: Vec<f64> = errors.iter().map(|e| e.abs()).collect();
+        Some(Self {
+            n: stats.n,
+            bias: stats.mean,
+            sd: stats.sample_sd,
+            rmse: stats.rms,
+            mae: stats.mean_absolute,
+            median: median(errors.to_vec()),
+            q95_absolute: quantile(absolute, 0.95),
+            max_absolute: stats.worst.abs(),
+            limits: stats.sample_sd.map(|sd| [stats.mean - K_95 * sd, stats.mean + K_95 * sd]),
+        })
+    }
+}
+
+/// The value below which the share `p` (0 to 1) of the values lies, linear between neighbours (numpy's default, R's type 7).
+/// Not a number for no values.
+#[must_use]
+#[expect(clippy::cast_precision_loss, reason = "a count of errors is far below 2^53")]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place between 0 and the count")]
+pub fn quantile(mut values: Vec<f64>, p: f64) -> f64 {
+    if values.is_empty() {
+        return f64::NAN;
+    }
+    values.sort_by(f64::total_cmp);
+    let place = p.clamp(0.0, 1.0) * (values.len() - 1) as f64;
+    let below = place.floor() as usize;
+    let above = (below + 1).min(values.len() - 1);
+    values[below] + (place - place.floor()) * (values[above] - values[below])
+}

@@ -1,0 +1,140 @@
+//! Fused sizes: what is common stays, what is not averages out, what is off is named.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use aim_batch_model::{
+    Camera, Doubt, Estimate, Fused, InputSigma, JointError, LensModel, Mark, Measured, Method, ObjectMarks, PerSource,
+    Pose, Quantity, Sensitivity, Share, Sight, Source, Verdict, View, best_of, fuse, joint_height, sights,
+};
+use nalgebra::Point3;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+const INPUTS: InputSigma = InputSigma {
+    pitch_rad: 0.01,
+    range_relative: 0.03,
+    range_noise_mm: 4.0,
+    turn_noise_rad: 0.004,
+    mark_px: 2.0,
+    ..InputSigma::NONE
+};
+
+fn share(value_mm: f64, picture: usize) -> Share {
+    let mut by_source = PerSource::zeros();
+    by_source[Source::Pitch.index()] = 150.0;
+    by_source[Source::RangeScale.index()] = 200.0;
+    by_source[Source::RangeOffset.index()] = 0.4;
+    let sensitivity = Sensitivity { by_source, marks_mm_per_px: 0.8 };
+    Share { value_mm, sensitivity, inputs: INPUTS, picture, penalty: 1.0 }
+}
+
+fn fused(values: &[f64]) -> Fused {
+    fuse(&values.iter().enumerate().map(|(i, v)| share(*v, i)).collect::<Vec<_>>()).unwrap()
+}
+
+#[test]
+fn what_is_common_does_not_shrink() {
+    let (one, many) = (fused(&[200.0]), fused(&[200.0; 25]));
+    assert!((many.sigma.common_mm - one.sigma.common_mm).abs() < 1e-9);
+    assert!((one.sigma.marks_mm / many.sigma.marks_mm - 5.0).abs() < 1e-9);
+    let own = |sigma: &aim_batch_model::SizeSigma| (sigma.total_mm.powi(2) - sigma.common_mm.powi(2)).sqrt();
+    assert!((own(&one.sigma) / own(&many.sigma) - 5.0).abs() < 1e-9);
+    assert_eq!((one.spread_mm, one.consistency), (None, None));
+}
+
+/// Two raters of one picture share its noise; two pictures do not.
+#[test]
+fn raters_of_one_picture_share_its_noise() {
+    let one_picture = fuse(&[share(200.0, 0), share(200.0, 0)]).unwrap();
+    let two_pictures = fuse(&[share(200.0, 0), share(200.0, 1)]).unwrap();
+    assert!((one_picture.sigma.marks_mm - two_pictures.sigma.marks_mm).abs() < 1e-12);
+    assert!(one_picture.sigma.range_mm > two_pictures.sigma.range_mm);
+    let expected = (200.0 * 0.03_f64).hypot(0.4 * 4.0);
+    assert!((one_picture.sigma.range_mm - expected).abs() < 1e-9);
+}
+
+#[test]
+fn one_that_is_off_is_named_and_counts_less() {
+    let found = fused(&[200.0, 201.0, 199.0, 200.5, 140.0]);
+    assert_eq!(found.outliers, [4]);
+    assert!(found.weights[4] < 0.05 && (found.value_mm - 200.0).abs() < 2.0, "{found:?}");
+    assert_eq!(found.consistency.unwrap().verdict, Verdict::Inconsistent);
+    let fine = fused(&[200.0, 201.0, 199.0, 200.5, 198.0]);
+    assert_eq!((fine.outliers.len(), fine.consistency.unwrap().verdict), (0, Verdict::Consistent));
+}
+
+#[test]
+fn a_doubtful_picture_counts_less() {
+    let shares = [share(200.0, 0), Share { penalty: 4.0, ..share(210.0, 1) }];
+    let found = fuse(&shares).unwrap();
+    assert!((found.weights[0] / found.weights[1] - 4.0).abs() < 1e-9 && (found.value_mm - 202.0).abs() < 1e-9);
+}
+
+/// Sizes drawn with common and own errors: the stated uncertainty covers, and the verdict is wrong as often as it says.
+#[test]
+fn intervals_cover_and_verdicts_hold() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let mut draw = |sigma: f64| sigma * Distribution::<f64>::sample(&StandardNormal, &mut random);
+    let (mut covered, mut inconsistent, runs) = (0, 0, 4000);
+    for _ in 0..runs {
+        let (pitch, scale) = (draw(0.01), draw(0.03));
+        let shares: Vec<Share> = (0..6)
+            .map(|i| {
+                let pitch = pitch + draw(0.004);
+                share(200.0 + 150.0 * pitch + 200.0 * scale + 0.4 * draw(4.0) + 0.8 * draw(2.0), i)
+            })
+            .collect();
+        let found = fuse(&shares).unwrap();
+        covered += u32::from((found.value_mm - 200.0).abs() < 1.96 * found.sigma.total_mm);
+        inconsistent += u32::from(found.consistency.unwrap().verdict == Verdict::Inconsistent);
+    }
+    let share_of = |n: u32| f64::from(n) / f64::from(runs);
+    assert!((0.94..0.96).contains(&share_of(covered)), "{}", share_of(covered));
+    assert!((0.005..0.017).contains(&share_of(inconsistent)), "{}", share_of(inconsistent));
+}
+
+fn view(pitch_deg: f64) -> View {
+    let camera = Camera::new([2592, 1944], [1695.0, 1703.0], [1296.0, 972.0], 0.0, LensModel::None).unwrap();
+    View::new(camera, Pose::new(pitch_deg.to_radians(), 0.05, 560.0).unwrap())
+}
+
+/// A wall 60 mm high that leans outwards by 24 mm, its far side.
+fn sight(view: &View) -> Vec<Sight> {
+    let end = |y: f64, z: f64| view.pixel_of(Point3::new(0.0, y, z)).unwrap();
+    let distance = 560.0 * view.pose().pitch_rad().cos();
+    let line = Mark::Line { quantity: Quantity::Height, ends_px: [end(distance, 0.0), end(distance + 24.0, 60.0)] };
+    sights(view, &ObjectMarks { object: "bowl".to_owned(), marks: vec![line] }).unwrap()
+}
+
+#[test]
+fn height_and_slope_together() {
+    let pictures: Vec<_> = [40.0, 55.0, 70.0].map(|pitch| (sight(&view(pitch)), INPUTS)).to_vec();
+    let found = joint_height(&pictures).unwrap();
+    assert!((found.height_mm - 60.0).abs() < 1e-6 && (found.overhang_mm - 24.0).abs() < 1e-6, "{found:?}");
+    assert!(found.sigma.total_mm > 1.0 && found.sigma.total_mm < 20.0);
+}
+
+#[test]
+fn pictures_from_one_angle_say_nothing() {
+    let alike: Vec<_> = [55.0, 55.4].map(|pitch| (sight(&view(pitch)), INPUTS)).to_vec();
+    assert!(matches!(joint_height(&alike), Err(JointError::TooAlike { .. })));
+    assert_eq!(joint_height(&alike[..1]), Err(JointError::TooFew(1)));
+}
+
+fn candidate(method: Method, total_mm: f64, doubts: Vec<Doubt>) -> Estimate {
+    let measured = Measured { quantity: Quantity::Height, predicted_mm: 60.0, plane_z_mm: 0.0, marks: 1 };
+    let sensitivity = Sensitivity { by_source: PerSource::zeros(), marks_mm_per_px: total_mm };
+    let sigma = sensitivity.sigma(&InputSigma { mark_px: 1.0, ..InputSigma::NONE });
+    Estimate { method, measured, sensitivity, sigma, wall_slope: None, doubts }
+}
+
+#[test]
+fn the_best_is_the_surest_of_those_that_apply() {
+    let paper = candidate(Method::Paper, 1.0, vec![Doubt::PaperApproximation, Doubt::WallSloped]);
+    let ray = candidate(Method::Ray, 2.0, vec![Doubt::WallSloped]);
+    let coaxial = candidate(Method::Coaxial, 3.0, vec![]);
+    let best = |of: &[&Estimate]| best_of(of.iter().copied()).map(|estimate| estimate.method);
+    assert_eq!(best(&[&paper, &ray, &coaxial]), Some(Method::Coaxial));
+    assert_eq!(best(&[&paper, &ray]), Some(Method::Ray), "where all have doubts, the fewest");
+    assert_eq!(best(&[]), None);
+}

@@ -1,0 +1,113 @@
+//! calibration.toml.
+
+use std::io::Write as _;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::entries::{EmpiricalEntry, PhysicalEntry, ProtractorEntry};
+
+/// The version of calibration.toml that this program writes and reads.
+pub const CALIBRATION_SCHEMA_VERSION: u32 = 1;
+
+/// calibration.toml (docs/calibration.md). Unknown keys are refused.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CalibrationFile {
+    /// Version of this layout: 1.
+    pub schema_version: u32,
+    /// Program and version that wrote it.
+    pub program: String,
+    /// Study that it was learned from.
+    pub study: String,
+    /// What could not be determined, and what to know.
+    #[serde(default)]
+    pub notes: Vec<String>,
+    /// Corrections of readings, for every method but `paper`.
+    #[serde(default)]
+    pub physical: Option<PhysicalEntry>,
+    /// Angles that were declared against those that were measured.
+    #[serde(default)]
+    pub protractor: Option<ProtractorEntry>,
+    /// Factors on the sizes of method `paper`.
+    #[serde(default)]
+    pub empirical: Vec<EmpiricalEntry>,
+}
+
+/// Why a calibration.toml is refused.
+#[derive(Debug, thiserror::Error)]
+pub enum CalibrationFileError {
+    /// It cannot be read, or is not such a file.
+    #[error(transparent)]
+    Config(#[from] ingest::ConfigError),
+    /// It cannot be written.
+    #[error("cannot write the calibration: {0}")]
+    Write(#[from] std::io::Error),
+    /// It does not go into TOML.
+    #[error("cannot write the calibration: {0}")]
+    Toml(#[from] toml::ser::Error),
+    /// A version of another program.
+    #[error("calibration.toml: schema_version = {0}: this program reads version {CALIBRATION_SCHEMA_VERSION}")]
+    Version(u32),
+    /// A number that is none, or a correction beyond sense.
+    #[error(
+        "calibration.toml: {0}: expected finite numbers, a mount within 20 degrees, scales within 50 % and variances above 0"
+    )]
+    Number(&'static str),
+}
+
+impl CalibrationFile {
+    pub(super) fn empty(program: &str, study: &str) -> Self {
+        Self {
+            schema_version: CALIBRATION_SCHEMA_VERSION,
+            program: program.to_owned(),
+            study: study.to_owned(),
+            notes: Vec::new(),
+            physical: None,
+            protractor: None,
+            empirical: Vec::new(),
+        }
+    }
+
+    /// Reads a calibration.toml.
+    ///
+    /// # Errors
+    /// [`CalibrationFileError`].
+    pub fn read(path: &Path) -> Result<Self, CalibrationFileError> {
+        let file: Self = ingest::config::read_toml(path)?;
+        file.check()?;
+        Ok(file)
+    }
+
+    /// Writes it, whole or not at all.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn write(&self, path: &Path) -> Result<(), CalibrationFileError> {
+        let text = toml::to_string(self)?;
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let mut file = tempfile::NamedTempFile::new_in(folder)?;
+        file.write_all(text.as_bytes())?;
+        file.persist(path).map_err(|error| error.error)?;
+        Ok(())
+    }
+
+    fn check(&self) -> Result<(), CalibrationFileError> {
+        if self.schema_version != CALIBRATION_SCHEMA_VERSION {
+            return Err(CalibrationFileError::Version(self.schema_version));
+        }
+        if let Some(p) = &self.physical {
+            let sane = p.mount_deg.abs() <= 20.0
+                && p.range_scale_pct.abs() <= 50.0
+                && p.focal_pct.abs() <= 50.0
+                && p.range_offset_mm.is_finite()
+                && p.covariance.iter().flatten().all(|c| c.is_finite())
+                && (0..4).all(|i| p.covariance[i][i] >= 0.0);
+            if !sane {
+                return Err(CalibrationFileError::Number("physical"));
+            }
+        }
+        let finite = |e: &EmpiricalEntry| e.a.is_finite() && e.b.is_finite();
+        if self.empirical.iter().all(finite) { Ok(()) } else { Err(CalibrationFileError::Number("empirical")) }
+    }
+}

@@ -1,0 +1,167 @@
+//! `calibrate`: what a bench with known sizes tells of a device, and its use in a run.
+
+mod apply;
+mod entries;
+mod file;
+
+use std::cell::Cell;
+
+use model::calibrate::empirical::{self, Empirical, Row};
+use model::calibrate::physical::{self, BenchSize, Physical};
+use model::calibrate::protractor::protractor;
+use model::{InputSigma, Kind, LEARNED, Level, Method, Quantity, ResultRow, SessionStatus, Source, Stage};
+
+use crate::reporter::Reporter;
+use crate::session::{SessionOutput, failed, run_session};
+use crate::sessions::unless_panicking;
+use crate::study::{RangeCone, Study, StudySpec};
+use crate::survey::{Survey, SurveyError, SurveyOptions};
+
+pub(crate) use apply::{corrected_view, inputs_after, scaled_paper};
+pub use entries::{EmpiricalEntry, HeldOutEntry, PhysicalEntry, ProtractorEntry, RefusedEntry};
+use entries::{empirical_entry, physical_entry};
+pub use file::{CALIBRATION_SCHEMA_VERSION, CalibrationFile, CalibrationFileError};
+
+/// What one session of a bench tells.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct BenchSession {
+    /// Whether session.toml declares a setup: such sessions are a bench, others a study that happens to have true sizes.
+    pub declared: bool,
+    /// Known sizes with the readings as they are.
+    pub sizes: Vec<BenchSize>,
+    /// The same with the range corrected for the sensor's cone, where it can be.
+    pub cone_sizes: Vec<BenchSize>,
+    /// Declared and measured pitch of each image, in degrees.
+    pub angles_deg: Vec<(f64, f64)>,
+}
+
+/// Settings of a study for its calibration: every method that calibrates or is calibrated, and both readings of the range.
+pub fn adjust(spec: &mut StudySpec) {
+    spec.measure.methods = vec![Method::Paper, Method::Ray, Method::Coaxial];
+    spec.signals.range_cone = RangeCone::TiltedPlane;
+}
+
+/// Learns what a study with true sizes tells. The study must have been loaded with [`adjust`]. Sessions that declare a setup are
+/// used; all of them where none does.
+///
+/// # Errors
+/// [`SurveyError`] for what concerns the calibration as a whole. What the data do not determine is in the file's notes.
+pub fn calibrate(
+    study: &Study,
+    options: &SurveyOptions,
+    reporter: &dyn Reporter,
+) -> Result<(CalibrationFile, Vec<SessionStatus>), SurveyError> {
+    let study = &Study { is_bench: true, ..study.clone() };
+    let survey = Survey::new(options)?;
+    let outputs = survey.each(study, options.jobs, reporter, |dir| {
+        let road = || run_session(study, dir, &survey.options, reporter);
+        let output = unless_panicking(dir, &Cell::new(Stage::Study), road);
+        let output = output.unwrap_or_else(|problem| failed(study, dir, problem));
+        reporter.done(&output.status);
+        output
+    })?;
+    let declared = outputs.iter().any(|output| output.bench.declared);
+    let used: Vec<&SessionOutput> = outputs.iter().filter(|output| output.bench.declared || !declared).collect();
+    let mut file = CalibrationFile::empty(&options.program, &study.spec.name);
+    add_physical(&mut file, &used, &study.spec.uncertainty.inputs());
+    add_empirical(&mut file, &used);
+    let angles: Vec<(f64, f64)> = used.iter().flat_map(|output| output.bench.angles_deg.iter().copied()).collect();
+    file.protractor = protractor(&angles).map(ProtractorEntry::from);
+    if file.protractor.is_none() {
+        file.notes.push("no protractor: setup_pitch_deg of session.toml is missing, or the same everywhere".to_owned());
+    }
+    Ok((file, outputs.into_iter().map(|output| output.status).collect()))
+}
+
+fn add_physical(file: &mut CalibrationFile, used: &[&SessionOutput], prior: &InputSigma) {
+    let of = |sizes: fn(&SessionOutput) -> &Vec<BenchSize>| -> Vec<BenchSize> {
+        used.iter().flat_map(|output| sizes(output).iter().cloned()).collect()
+    };
+    let (plain, cone) = (of(|o| &o.bench.sizes), of(|o| &o.bench.cone_sizes));
+    let fitted = match physical::calibrate(&plain, prior) {
+        Ok(fitted) => fitted,
+        Err(error) => return file.notes.push(format!("no physical corrections: {error}")),
+    };
+    let with_cone = physical::calibrate(&cone, prior).ok().filter(|_| cone.len() == plain.len());
+    let judged = |fitted: &Physical| fitted.without_setup.after_rmse_pct.unwrap_or(f64::INFINITY);
+    let takes_cone = with_cone.as_ref().is_some_and(|with_cone| judged(with_cone) < judged(&fitted));
+    if let Some(with_cone) = &with_cone {
+        file.notes.push(format!(
+            "range cone: {:.2} % RMSE of setups left out with it, {:.2} % without",
+            judged(with_cone),
+            judged(&fitted)
+        ));
+    }
+    let cone = if takes_cone { RangeCone::TiltedPlane } else { RangeCone::Off };
+    let taken = with_cone.filter(|_| takes_cone).unwrap_or(fitted);
+    file.notes.extend((0..LEARNED.len()).filter(|&i| !taken.determined[i]).map(|i| refusal(&taken, i, prior)));
+    file.physical = Some(physical_entry(&taken, cone, prior));
+}
+
+/// In units for people.
+fn refusal(fitted: &Physical, parameter: usize, prior: &InputSigma) -> String {
+    let source = LEARNED[parameter];
+    let (per, unit) = match source {
+        Source::Mount => (1.0_f64.to_radians(), "degrees"),
+        Source::RangeOffset => (1.0, "mm"),
+        _ => (0.01, "%"),
+    };
+    let told = fitted.sd[parameter].map_or("nothing".to_owned(), |sd| format!("an SD of {:.2} {unit}", sd / per));
+    let known = physical::prior_sd(prior, source) / per;
+    format!(
+        "{source} is not determined: the data tell {told}, {known:.2} {unit} is known beforehand; it is left at zero"
+    )
+}
+
+/// Rows of one sort have one line.
+fn add_empirical(file: &mut CalibrationFile, used: &[&SessionOutput]) {
+    let rows: Vec<&ResultRow> = used.iter().flat_map(|output| &output.results).collect();
+    for kind in Kind::ALL {
+        for is_height in [false, true] {
+            let fits = |row: &&&ResultRow| {
+                row.level == Level::Frame
+                    && row.method == Method::Paper
+                    && row.kind == *kind
+                    && (row.quantity == Quantity::Height) == is_height
+            };
+            let of_sort: Vec<Row> = rows.iter().filter(fits).filter_map(|row| table_row(row)).collect();
+            let what = format!("{kind} {}", if is_height { "heights" } else { "mouths" });
+            if of_sort.is_empty() {
+                continue;
+            }
+            match empirical::calibrate(&of_sort) {
+                Ok(fitted) => {
+                    let mended = mended(&of_sort, &fitted);
+                    file.notes.extend(fitted.slips.iter().map(|slip| slip_note(&of_sort[slip.row], slip.factor)));
+                    file.empirical.push(empirical_entry(*kind, is_height, &of_sort, &fitted, mended.as_ref()));
+                }
+                Err(error) => file.notes.push(format!("no line for {what}: {error}")),
+            }
+        }
+    }
+}
+
+fn mended(rows: &[Row], fitted: &Empirical) -> Option<Empirical> {
+    (!fitted.slips.is_empty()).then(|| empirical::calibrate(&empirical::mended(rows, &fitted.slips)).ok()).flatten()
+}
+
+fn slip_note(row: &Row, factor: f64) -> String {
+    format!(
+        "'{}' in {}: {:.1} mm for {:.1} mm; {:.1} mm would fit its neighbours: a slip of the decimal point is likely",
+        row.object,
+        row.setup,
+        row.predicted_mm,
+        row.true_mm,
+        row.predicted_mm * factor
+    )
+}
+
+fn table_row(row: &ResultRow) -> Option<Row> {
+    Some(Row {
+        object: row.object.clone(),
+        setup: row.session.clone(),
+        pitch_rad: row.pitch_deg?.to_radians(),
+        predicted_mm: row.predicted_mm?,
+        true_mm: row.truth_mm?,
+    })
+}

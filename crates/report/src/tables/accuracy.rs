@@ -1,0 +1,156 @@
+//! Accuracy against true sizes: errors, limits of agreement, coverage of the stated uncertainties.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use model::validation::{Coverage, ErrorSummary, Interval, bootstrap, coverage};
+use model::{Kind, Level, Method, Quantity, ResultRow};
+
+use super::bands::{height_name, pitch_name};
+use super::errors::row_error_pct;
+use crate::parquet::Results;
+use crate::table::{Cell, Column, Format, RowKind, Table, TableRow};
+
+const STATISTIC: &str = "Errors: 100 (predicted - original) / original, signed, in per cent; SD: sample SD; median: of the \
+                         signed errors; q95 and max: of the absolute ones; limits: bias -+ 1.96 SD (Bland and Altman); \
+                         68 and 95: per cent of sizes whose stated interval holds the truth, where no assumption is in doubt.";
+
+/// Resampling repeats; the seed is fixed, so that a table is the same each time.
+const DRAWS: usize = 1000;
+const SEED: u64 = 20;
+
+/// What the errors of one row have in common.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Key {
+    level: Level,
+    kind: Kind,
+    quantity: Quantity,
+    method: Method,
+    /// Number of what the rows are told apart by, in [`BY`].
+    by: usize,
+    group: String,
+}
+
+/// What rows are told apart by.
+const BY: [&str; 5] = ["all", "pitch", "height", "object", "rater"];
+
+/// Errors of all sizes with a truth by level, kind, quantity and method: all together, and by band of pitch, height of the
+/// camera, object and rater.
+#[must_use]
+pub fn accuracy(results: &Results) -> Table {
+    let participants: BTreeSet<&str> = results.rows.iter().filter_map(|row| row.participant.as_deref()).collect();
+    let by_participant = participants.len() > 1;
+    let mut groups: BTreeMap<Key, Vec<(&ResultRow, f64)>> = BTreeMap::new();
+    for row in &results.rows {
+        let Some(error) = row_error_pct(row) else { continue };
+        for (by, group) in groups_of(row) {
+            let key = Key { level: row.level, kind: row.kind, quantity: row.quantity, method: row.method, by, group };
+            groups.entry(key).or_default().push((row, error));
+        }
+    }
+    let cluster = if by_participant { "participant" } else { "object" };
+    let rows: Vec<TableRow> =
+        groups.iter().filter_map(|(key, errors)| table_row(key, errors, by_participant)).collect();
+    let empty = "No size has a true size to compare with.".to_owned();
+    let about = format!(
+        "Intervals of bias and RMSE: 95 %, bootstrap of whole clusters ({cluster}), {DRAWS} draws, seed {SEED}."
+    );
+    Table {
+        stem: "accuracy".to_owned(),
+        label: None,
+        title: "Accuracy against true sizes".to_owned(),
+        statistic: STATISTIC.to_owned(),
+        columns: columns(),
+        remarks: if rows.is_empty() { vec![empty] } else { vec![about] },
+        rows,
+        footnotes: Vec::new(),
+        statement: results.metadata.statement.clone(),
+    }
+}
+
+/// The groups that a row belongs to.
+fn groups_of(row: &ResultRow) -> Vec<(usize, String)> {
+    let named =
+        [Some(String::new()), pitch_name(row), height_name(row), Some(row.object.clone()), Some(row.rater.clone())];
+    named.into_iter().enumerate().filter_map(|(by, group)| Some((by, group?))).collect()
+}
+
+fn columns() -> Vec<Column> {
+    let mut columns: Vec<Column> =
+        ["level", "kind", "quantity", "method", "by", "group"].map(|name| Column::key(name).headed(name)).into();
+    columns.push(Column::result("n", "").headed("n"));
+    for (name, heading) in [
+        ("bias_pct", "bias"),
+        ("sd_pct", "SD"),
+        ("rmse_pct", "RMSE"),
+        ("mae_pct", "MAE"),
+        ("median_pct", "median"),
+        ("q95_absolute_pct", "q95"),
+        ("max_absolute_pct", "max"),
+        ("limit_low_pct", "limit"),
+        ("limit_high_pct", "limit"),
+    ] {
+        columns.push(Column::result(name, "%").headed(heading));
+    }
+    for name in ["bias_low_pct", "bias_high_pct", "rmse_low_pct", "rmse_high_pct"] {
+        columns.push(Column::result(name, "%"));
+    }
+    columns.push(Column::result("clusters", ""));
+    columns.push(Column::result("claimed", ""));
+    for (name, heading) in [("within_68_pct", "68"), ("within_95_pct", "95")] {
+        columns.push(Column::result(name, "%").headed(heading).formatted(Format::Decimals(1)));
+    }
+    columns
+}
+
+fn table_row(key: &Key, errors: &[(&ResultRow, f64)], by_participant: bool) -> Option<TableRow> {
+    let values: Vec<f64> = errors.iter().map(|(_, error)| *error).collect();
+    let summary = ErrorSummary::of(&values)?;
+    let clusters = clusters(errors, by_participant);
+    let interval = |statistic: fn(&ErrorSummary) -> f64| {
+        bootstrap(&clusters, |sample| ErrorSummary::of(sample).map(|s| statistic(&s)), DRAWS, SEED)
+    };
+    let (of_bias, of_rmse) = (interval(|s| s.bias), interval(|s| s.rmse));
+    let claimed = claimed(errors);
+    let ends = |interval: Option<Interval>| [interval.map(|i| i.low), interval.map(|i| i.high)];
+    let share = |of: fn(&Coverage) -> f64| coverage(&claimed).map(|c| 100.0 * of(&c));
+    let mut cells = vec![
+        Cell::text(key.level.code()),
+        Cell::text(key.kind.code()),
+        Cell::text(key.quantity.code()),
+        Cell::text(key.method.code()),
+        Cell::text(BY[key.by]),
+        Cell::text(&key.group),
+        Cell::Count(summary.n),
+    ];
+    let numbers = [
+        Some(summary.bias),
+        summary.sd,
+        Some(summary.rmse),
+        Some(summary.mae),
+        Some(summary.median),
+        Some(summary.q95_absolute),
+        Some(summary.max_absolute),
+        summary.limits.map(|l| l[0]),
+        summary.limits.map(|l| l[1]),
+    ];
+    cells.extend(numbers.into_iter().chain(ends(of_bias)).chain(ends(of_rmse)).map(Cell::number));
+    cells.extend([Cell::Count(clusters.len()), Cell::Count(claimed.len())]);
+    cells.extend([share(|c| c.within_68), share(|c| c.within_95)].map(Cell::number));
+    Some(TableRow { kind: RowKind::Row, label: None, cells, marks: Vec::new() })
+}
+
+/// Errors of one participant, or of one object, together.
+fn clusters(errors: &[(&ResultRow, f64)], by_participant: bool) -> Vec<Vec<f64>> {
+    let mut clusters: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    for (row, error) in errors {
+        let name = if by_participant { row.participant.as_deref().unwrap_or_default() } else { row.object.as_str() };
+        clusters.entry(name).or_default().push(*error);
+    }
+    clusters.into_values().collect()
+}
+
+/// Errors with their uncertainties in mm, of sizes whose method claims to apply.
+fn claimed(errors: &[(&ResultRow, f64)]) -> Vec<(f64, f64)> {
+    let of_row = |(row, _): &(&ResultRow, f64)| Some((row.predicted_mm? - row.truth_mm?, row.sigma_mm?));
+    errors.iter().filter(|(row, _)| row.doubts.is_empty()).filter_map(of_row).collect()
+}
