@@ -19,6 +19,7 @@ mod reporter;
 mod run;
 mod session;
 mod sessions;
+pub mod rims;
 pub mod signals;
 pub mod study;
 mod survey;

@@ -1,0 +1,191 @@
+//! A likely circle fitted to the edges along it, and how much of it they cover.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::buckets::Buckets;
+use super::ground::GroundEdge;
+use super::votes::Disc;
+
+/// The circle is divided into as many bins.
+pub(super) const BINS: usize = 72;
+/// Widths of the ring around the circle in which edges count, in radii, from first to last pass.
+const RING: [f32; 4] = [0.12, 0.06, 0.03, 0.0];
+/// Least width of the ring, in scaled pixels; of the last pass.
+const RING_PX: f32 = 1.5;
+/// An edge of a circle points to its centre within 18 degrees.
+const LEAST_COSINE: f32 = 0.95;
+/// Edges with less than this cosine (40 degrees off) certainly belong to something else.
+const OTHER_COSINE: f32 = 0.766;
+/// Share of a bin's length that must be edges.
+const BIN_SHARE: f32 = 0.4;
+
+/// A fitted circle and its support.
+#[derive(Debug, Clone)]
+pub(super) struct Arc {
+    pub disc: Disc,
+    /// How far it is from round: radius = R + a cos 2t + b sin 2t, in mm.
+    pub oval: [f64; 2],
+    /// Per bin, from angle 0 on: 1 where brighter lies outside, -1 where inside, 0 where no edge is.
+    pub bins: [i8; BINS],
+    /// Share of all bins that have an edge.
+    pub coverage: f64,
+    /// Root mean square distance of the edges from the circle, in scaled pixels.
+    pub residual_px: f64,
+    /// Mean strength of the edges, levels per scaled pixel.
+    pub contrast: f64,
+    /// Length of other edges (not along circles about this centre) per area around the rim, times the ring's width: the
+    /// chance that a place on the rim has an edge along it that means nothing.
+    pub chance: f64,
+    /// Length of the rim in scaled pixels.
+    pub perimeter_px: f64,
+}
+
+/// Edge relative to a circle: distance from its centre, and cosine between its normal and the radius (positive where
+/// brighter lies outside).
+fn relative(e: &GroundEdge, disc: &Disc) -> (f32, f32) {
+    #[expect(clippy::cast_possible_truncation, reason = "mm")]
+    let (dx, dy) = (e.x - disc.x as f32, e.y - disc.y as f32);
+    let distance = dx.hypot(dy).max(1e-6);
+    (distance, (dx * e.nx + dy * e.ny) / distance)
+}
+
+/// A circle on its way, and how far from round it is allowed to look.
+#[derive(Clone, Copy)]
+struct Trial {
+    disc: Disc,
+    oval: [f64; 2],
+    most_oval: f64,
+}
+
+impl Trial {
+    /// Distance of an edge outside the curve in mm, and the direction to it from the centre.
+    fn off(&self, e: &GroundEdge, distance: f32) -> (f32, [f64; 2]) {
+        let d = f64::from(distance);
+        let (cos, sin) = ((f64::from(e.x) - self.disc.x) / d, (f64::from(e.y) - self.disc.y) / d);
+        let oval = self.oval[0] * (cos * cos - sin * sin) + self.oval[1] * 2.0 * cos * sin;
+        #[expect(clippy::cast_possible_truncation, reason = "mm")]
+        ((d - self.disc.radius - oval) as f32, [cos, sin])
+    }
+}
+
+/// Fits a likely circle to the edges near it; none when it has too few, or runs away. `most_oval`: how far from round,
+/// relative to its radius, it may look for an error of the pose.
+pub(super) fn fit(buckets: &Buckets, start: &Disc, most_oval: f64) -> Option<Arc> {
+    #[expect(clippy::cast_possible_truncation, reason = "mm")]
+    let radius = start.radius as f32;
+    let near: Vec<GroundEdge> = buckets.near_rim(start, 0.35 * radius).copied().collect();
+    let mut trial = Trial { disc: *start, oval: [0.0; 2], most_oval: 0.0 };
+    for (pass, width) in RING.into_iter().enumerate() {
+        if pass == 2 {
+            trial.most_oval = most_oval;
+        }
+        for _ in 0..if pass < 2 { 2 } else { 3 } {
+            trial = step(&near, &trial, width)?;
+            let moved = (trial.disc.x - start.x).hypot(trial.disc.y - start.y);
+            if moved > 0.3 * start.radius || !(0.75..1.33).contains(&(trial.disc.radius / start.radius)) {
+                return None;
+            }
+        }
+    }
+    Some(support(&near, &trial))
+}
+
+/// One Gauss-Newton step with Tukey's weights.
+fn step(edges: &[GroundEdge], trial: &Trial, width: f32) -> Option<Trial> {
+    let (mut normal, mut right) = (SMatrix::<f64, 5, 5>::zeros(), SVector::<f64, 5>::zeros());
+    let disc = trial.disc;
+    #[expect(clippy::cast_possible_truncation, reason = "mm")]
+    let radius = disc.radius as f32;
+    for e in edges {
+        let (distance, cosine) = relative(e, &disc);
+        let ring = (width * radius).max(RING_PX * e.scale);
+        if cosine.abs() < LEAST_COSINE {
+            continue;
+        }
+        let (off, [cos, sin]) = trial.off(e, distance);
+        if off.abs() >= ring {
+            continue;
+        }
+        let tukey = (1.0 - (off / ring).powi(2)).powi(2);
+        // An edge stands for its length; its place is uncertain by pixels.
+        let weight = f64::from(tukey * e.length / (e.scale * e.scale * e.scale));
+        let row = SVector::<f64, 5>::from([cos, sin, 1.0, cos * cos - sin * sin, 2.0 * cos * sin]);
+        normal += row * row.transpose() * weight;
+        right += row * (weight * f64::from(off));
+    }
+    // Too short an arc does not fix a circle: keep it still rather than let it run.
+    let damping = 1e-3 * normal[(2, 2)];
+    for i in 0..3 {
+        normal[(i, i)] += damping;
+    }
+    let sigma = 0.5 * trial.most_oval * disc.radius;
+    for i in 3..5 {
+        if sigma > 0.0 {
+            normal[(i, i)] += 1.0 / (sigma * sigma);
+            right[i] -= trial.oval[i - 3] / (sigma * sigma);
+        } else {
+            normal[(i, i)] = f64::MAX.sqrt();
+        }
+    }
+    let change = normal.cholesky()?.solve(&right);
+    let disc = Disc { x: disc.x + change[0], y: disc.y + change[1], radius: disc.radius + change[2] };
+    let mut oval = [trial.oval[0] + change[3], trial.oval[1] + change[4]];
+    let (size, most) = (oval[0].hypot(oval[1]), trial.most_oval * disc.radius);
+    if size > most {
+        oval = oval.map(|o| o * most / size);
+    }
+    (disc.radius > 0.0 && disc.x.is_finite() && disc.y.is_finite()).then_some(Trial { disc, oval, ..*trial })
+}
+
+/// The edges along a circle.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "bins")]
+fn support(edges: &[GroundEdge], trial: &Trial) -> Arc {
+    let disc = &trial.disc;
+    let radius = disc.radius as f32;
+    let bin_mm = std::f32::consts::TAU * radius / BINS as f32;
+    let (mut bright_outside, mut bright_inside) = ([0.0_f32; BINS], [0.0_f32; BINS]);
+    let (mut squares, mut contrast, mut length) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut other, mut scales, mut count) = (0.0_f64, 0.0_f64, 0_usize);
+    for e in edges {
+        let (distance, cosine) = relative(e, disc);
+        let off = trial.off(e, distance).0.abs();
+        if off < 0.25 * radius {
+            scales += f64::from(e.scale);
+            count += 1;
+            if cosine.abs() < OTHER_COSINE {
+                other += f64::from(e.length);
+            }
+        }
+        if cosine.abs() < LEAST_COSINE || off > RING_PX * e.scale {
+            continue;
+        }
+        let angle = (e.y - disc.y as f32).atan2(e.x - disc.x as f32).rem_euclid(std::f32::consts::TAU);
+        let bin = ((angle / std::f32::consts::TAU * BINS as f32) as usize).min(BINS - 1);
+        if cosine > 0.0 { bright_outside[bin] += e.length } else { bright_inside[bin] += e.length }
+        let l = f64::from(e.length);
+        squares += l * f64::from(off / e.scale).powi(2);
+        contrast += l * f64::from(e.contrast);
+        length += l;
+    }
+    let mut bins = [0_i8; BINS];
+    for (i, bin) in bins.iter_mut().enumerate() {
+        if bright_outside[i].max(bright_inside[i]) >= BIN_SHARE * bin_mm {
+            *bin = if bright_outside[i] > bright_inside[i] { 1 } else { -1 };
+        }
+    }
+    let covered = bins.iter().filter(|b| **b != 0).count();
+    let scale = scales / (count.max(1)) as f64;
+    let ring_area = std::f64::consts::TAU * disc.radius * 0.5 * disc.radius;
+    // Other edges fill directions from 40 to 90 degrees off, those that would be taken for the rim's 0 to 18 degrees.
+    let alike = other / ring_area * (18.0 / 50.0);
+    Arc {
+        disc: *disc,
+        oval: trial.oval,
+        bins,
+        coverage: covered as f64 / BINS as f64,
+        residual_px: (squares / length.max(1e-9)).sqrt(),
+        contrast: contrast / length.max(1e-9),
+        chance: (alike * 2.0 * f64::from(RING_PX) * scale).min(1.0),
+        perimeter_px: std::f64::consts::TAU * disc.radius / scale.max(1e-9),
+    }
+}
