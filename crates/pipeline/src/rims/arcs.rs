@@ -51,10 +51,10 @@ fn relative(e: &GroundEdge, disc: &Disc) -> (f32, f32) {
 
 /// A circle on its way, and how far from round it is allowed to look.
 #[derive(Clone, Copy)]
-struct Trial {
-    disc: Disc,
-    oval: [f64; 2],
-    most_oval: f64,
+pub(super) struct Trial {
+    pub disc: Disc,
+    pub oval: [f64; 2],
+    pub most_oval: f64,
 }
 
 impl Trial {
@@ -86,6 +86,18 @@ pub(super) fn fit(buckets: &Buckets, start: &Disc, most_oval: f64) -> Option<Arc
                 return None;
             }
         }
+    }
+    Some(support(&near, &trial))
+}
+
+/// Fits again, from close by.
+pub(super) fn refit(buckets: &Buckets, start: &Arc, most_oval: f64) -> Option<Arc> {
+    #[expect(clippy::cast_possible_truncation, reason = "mm")]
+    let radius = start.disc.radius as f32;
+    let near: Vec<GroundEdge> = buckets.near_rim(&start.disc, 0.3 * radius).copied().collect();
+    let mut trial = Trial { disc: start.disc, oval: start.oval, most_oval };
+    for width in [0.02, 0.0, 0.0, 0.0] {
+        trial = step(&near, &trial, width)?;
     }
     Some(support(&near, &trial))
 }
@@ -139,7 +151,7 @@ fn step(edges: &[GroundEdge], trial: &Trial, width: f32) -> Option<Trial> {
 
 /// The edges along a circle.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "bins")]
-fn support(edges: &[GroundEdge], trial: &Trial) -> Arc {
+pub(super) fn support(edges: &[GroundEdge], trial: &Trial) -> Arc {
     let disc = &trial.disc;
     let radius = disc.radius as f32;
     let bin_mm = std::f32::consts::TAU * radius / BINS as f32;
@@ -187,5 +199,13 @@ fn support(edges: &[GroundEdge], trial: &Trial) -> Arc {
         contrast: contrast / length.max(1e-9),
         chance: (alike * 2.0 * f64::from(RING_PX) * scale).min(1.0),
         perimeter_px: std::f64::consts::TAU * disc.radius / scale.max(1e-9),
+    }
+}
+
+impl Arc {
+    /// The place of the curve at an angle about its centre (radians from X), in mm on the plane Z = 0.
+    pub(super) fn at(&self, angle: f64) -> [f64; 2] {
+        let radius = self.disc.radius + self.oval[0] * (2.0 * angle).cos() + self.oval[1] * (2.0 * angle).sin();
+        [self.disc.x + radius * angle.cos(), self.disc.y + radius * angle.sin()]
     }
 }

@@ -63,4 +63,27 @@ impl Buckets {
             })
             .filter(move |e| ((e.x - x).hypot(e.y - y) - radius).abs() <= width)
     }
+
+    /// All edges.
+    pub(super) fn edges(&self) -> &[GroundEdge] {
+        &self.edges
+    }
+
+    /// Edges in the square of a place and the squares around it.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "squares")]
+    pub(super) fn around(&self, x: f32, y: f32) -> impl Iterator<Item = &GroundEdge> {
+        let index = |v: f32| (v / self.side).floor().clamp(-2.0, 1e6) as i64;
+        let (column, row) = (index(x - self.left), index(y - self.near));
+        (row - 1..=row + 1).flat_map(move |row| {
+            let columns = (column - 1).max(0)..(column + 2).min(self.columns as i64);
+            let inside = (0..self.rows as i64).contains(&row) && !columns.is_empty();
+            let range = if inside {
+                let base = row as usize * self.columns;
+                self.starts[base + columns.start as usize] as usize..self.starts[base + columns.end as usize] as usize
+            } else {
+                0..0
+            };
+            &self.edges[range]
+        })
+    }
 }

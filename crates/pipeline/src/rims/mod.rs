@@ -1,58 +1,102 @@
 //! Rims of plates and bowls found without marks.
+//!
+//! The pose is known, so a level circle at any height is a circle on the plane Z = 0 ([`ground`]). Edges of the picture at a
+//! reduced scale are linked to chains ([`edges`], [`chains`]), carried to that plane, and vote there for circles
+//! ([`votes`]); likely circles are fitted ([`arcs`]), carried from inner to outer edges ([`outward`]), weighed against
+//! chance ([`significance`]), and one per container is kept ([`select`]). The rim is then followed through the full picture
+//! ([`refine`]). Its height comes from the foot below it ([`height`]).
+//!
+//! A found rim becomes the same [`ObjectMarks`] as a person's marks, and is measured by the same code.
 
 mod arcs;
 mod buckets;
 mod chains;
 mod edges;
 mod ground;
+mod height;
+mod outward;
+mod refine;
 mod scaled;
+mod search;
+mod select;
+mod significance;
 mod votes;
 
 use ingest::Picture;
-use model::View;
+use model::{Feature, Mark, ObjectMarks, View};
+use nalgebra::{Point2, Point3};
 
-use arcs::Arc;
 use buckets::Buckets;
+pub use height::{HeightSource, RimHeight};
 use scaled::Scaled;
 
-/// The pose may be wrong by as much, in radians (17 mg of zero-g offset per degree).
-const POSE_ERROR_RAD: f64 = 0.03;
-
-/// How far from round a level circle looks for an error of the pose: half of what stretches it, cot(depression) per radian.
-fn most_oval(view: &View, disc: &votes::Disc) -> f64 {
-    let away = disc.x.hypot(disc.y) / view.pose().camera_height_mm();
-    0.01 + 0.5 * POSE_ERROR_RAD * away
+/// A rim found in a picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rim {
+    /// From 0 to 1: how sure it is that this is the rim of a container.
+    pub confidence: f64,
+    /// Where the centre of the rim appears.
+    pub center_px: Point2<f64>,
+    /// Points along it, in order, where the picture shows it.
+    pub points_px: Vec<Point2<f64>>,
+    /// Share of the rim that has an edge along it, of what lies in the picture.
+    pub coverage: f64,
+    /// Its height if it is a bowl's.
+    pub height: RimHeight,
+    #[doc(hidden)]
+    pub debug: Vec<f64>,
 }
 
-/// Dump for development.
-pub fn dump(picture: &Picture, view: &View) -> Vec<[f64; 9]> {
-    let t = std::time::Instant::now();
-    let lap = |what: &str| eprintln!("{what} {:.1} ms", t.elapsed().as_secs_f64() * 1e3);
+/// Why rims cannot be looked for.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum RimError {
+    /// The picture is not the camera's.
+    #[error("the picture is {found_px:?} px, but the camera's pictures are {expected_px:?}: give this picture's camera")]
+    Size {
+        /// Width and height of the picture.
+        found_px: [u32; 2],
+        /// Width and height by the camera.
+        expected_px: [u32; 2],
+    },
+}
+
+/// Fewer points do not hold a rim.
+const LEAST_POINTS: usize = 12;
+
+/// The rims in a picture taken from a known pose, most likely first.
+///
+/// # Errors
+/// [`RimError`] when the picture is not of the camera's size.
+pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
+    let found_px = [picture.width_px, picture.height_px];
+    if found_px != view.camera().size_px() {
+        return Err(RimError::Size { found_px, expected_px: view.camera().size_px() });
+    }
     let scaled = Scaled::of(picture);
-    lap("scaled");
-    let edges = ground::ground_edges(view, &scaled);
-    lap(&format!("edges {}", edges.len()));
-    let likely = votes::likely_discs(&edges, [25.0, 330.0]);
-    lap(&format!("votes {}", likely.len()));
-    let buckets = Buckets::new(&edges);
-    let mut arcs: Vec<(Arc, f32)> =
-        likely.iter().filter_map(|(disc, share)| Some((arcs::fit(&buckets, disc, most_oval(view, disc))?, *share))).collect();
-    lap("fit");
-    arcs.sort_by(|a, b| b.0.coverage.total_cmp(&a.0.coverage));
-    arcs.iter()
-        .map(|(a, share)| {
-            let polarity: i32 = a.bins.iter().map(|b| i32::from(*b)).sum();
-            [
-                a.disc.x,
-                a.disc.y,
-                a.disc.radius,
-                a.coverage,
-                a.residual_px,
-                a.contrast,
-                a.chance,
-                f64::from(*share),
-                f64::from(polarity) / 72.0,
-            ]
+    let buckets = Buckets::new(&ground::ground_edges(view, &scaled));
+    let rims = select::rims(search::circles(view, &buckets));
+    Ok(rims
+        .iter()
+        .filter_map(|found| {
+            let points_px = refine::follow(picture, view, &found.arc, scaled.factor);
+            let center_px = view.pixel_of(Point3::new(found.arc.disc.x, found.arc.disc.y, 0.0)).ok()?;
+            (points_px.len() >= LEAST_POINTS).then(|| Rim {
+                confidence: found.confidence,
+                center_px,
+                points_px,
+                coverage: found.evidence.coverage,
+                debug: vec![found.arc.disc.x, found.arc.disc.y, found.arc.disc.radius, found.arc.residual_px, found.arc.contrast, found.arc.chance, found.evidence.false_alarms_log10, found.evidence.steady, found.evidence.visible],
+                height: height::of_bowl(&buckets, &found.arc, view.pose().camera_height_mm()),
+            })
         })
-        .collect()
+        .collect())
+}
+
+impl Rim {
+    /// The marks that a person would have made.
+    #[must_use]
+    pub fn marks(&self, object: &str) -> ObjectMarks {
+        let marks = vec![Mark::Outline { feature: Feature::Rim, points_px: self.points_px.clone() }];
+        ObjectMarks { object: object.to_owned(), marks }
+    }
 }

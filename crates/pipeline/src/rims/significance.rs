@@ -1,0 +1,77 @@
+//! How sure it is that a circle is a rim.
+
+use model::View;
+use nalgebra::Point3;
+
+use super::arcs::{Arc, BINS};
+
+/// Circles that a search tries, as a power of ten: cells of all layers.
+const TESTS_LOG10: f64 = 6.0;
+/// Edges nearer to each other than this many scaled pixels are not independent.
+const INDEPENDENT_PX: f64 = 6.0;
+
+/// What speaks for a circle.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Evidence {
+    /// Share of the rim that lies in the picture.
+    pub visible: f64,
+    /// Share of what lies in the picture that has an edge along it.
+    pub coverage: f64,
+    /// Share of the edges that agree with their neighbours on the side where it is brighter.
+    pub steady: f64,
+    /// Common logarithm of the expected number of circles as good as this one in a picture of chance edges.
+    pub false_alarms_log10: f64,
+}
+
+impl Evidence {
+    #[expect(clippy::cast_precision_loss, reason = "bins")]
+    pub(super) fn of(view: &View, arc: &Arc) -> Self {
+        let visible: Vec<bool> = (0..BINS).map(|bin| is_visible(view, arc, bin)).collect();
+        let seen = visible.iter().filter(|v| **v).count();
+        let held = (0..BINS).filter(|i| visible[*i] && arc.bins[*i] != 0).count();
+        let pairs: Vec<bool> = (0..BINS)
+            .filter(|i| arc.bins[*i] != 0 && arc.bins[(*i + 1) % BINS] != 0)
+            .map(|i| arc.bins[i] == arc.bins[(i + 1) % BINS])
+            .collect();
+        let steady = pairs.iter().filter(|same| **same).count() as f64 / pairs.len().max(1) as f64;
+        let share = seen as f64 / BINS as f64;
+        let coverage = held as f64 / seen.max(1) as f64;
+        let trials = (arc.perimeter_px * share / INDEPENDENT_PX).min(seen as f64);
+        Self {
+            visible: share,
+            coverage,
+            steady,
+            false_alarms_log10: TESTS_LOG10 + binomial_tail_log10(trials, coverage, arc.chance),
+        }
+    }
+
+    /// From 0 to 1.
+    pub(super) fn confidence(&self, arc: &Arc) -> f64 {
+        let score = 14.0 * (self.coverage * self.visible.sqrt() - 0.52)
+            + 3.0 * (self.steady - 0.8)
+            - 2.0 * (arc.residual_px - 0.45)
+            - 0.3 * (self.false_alarms_log10 + 8.0).max(0.0);
+        1.0 / (1.0 + (-score).exp())
+    }
+}
+
+/// Whether the picture shows this part of a rim.
+#[expect(clippy::cast_precision_loss, reason = "bins")]
+fn is_visible(view: &View, arc: &Arc, bin: usize) -> bool {
+    let angle = (bin as f64 + 0.5) / BINS as f64 * std::f64::consts::TAU;
+    let [x, y] = arc.at(angle);
+    let [width, height] = view.camera().size_px().map(f64::from);
+    view.pixel_of(Point3::new(x, y, 0.0)).is_ok_and(|p| {
+        (0.005 * width..0.995 * width).contains(&p.x) && (0.005 * width..height - 0.005 * width).contains(&p.y)
+    })
+}
+
+/// Upper bound of log10 P(at least `share` of `trials` succeed by chance `p` each), by Hoeffding (1963, Theorem 1).
+fn binomial_tail_log10(trials: f64, share: f64, p: f64) -> f64 {
+    let p = p.clamp(1e-3, 1.0);
+    if share <= p {
+        return 0.0;
+    }
+    let part = |share: f64, p: f64| if share > 0.0 { share * (share / p).log10() } else { 0.0 };
+    -trials * (part(share, p) + part(1.0 - share, 1.0 - p))
+}
