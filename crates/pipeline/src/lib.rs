@@ -15,6 +15,7 @@ mod check;
 mod inputs;
 pub mod inspect;
 pub mod labelme;
+pub mod overlay;
 mod reporter;
 mod run;
 mod session;

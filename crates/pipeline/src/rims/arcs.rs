@@ -16,6 +16,14 @@ const RING_PX: f32 = 1.5;
 const LEAST_COSINE: f32 = 0.95;
 /// Edges with less than this cosine (40 degrees off) certainly belong to something else.
 const OTHER_COSINE: f32 = 0.766;
+/// Edges that a fit may meet lie in a ring of this width around its start, in radii ...
+const GATHERED: f32 = 0.35;
+/// ... and point to its start's centre within about 35 degrees.
+const GATHERED_COSINE: f32 = 0.82;
+/// A circle with less edge along it, relative to its length, is given up.
+const LEAST_SHARE: f32 = 0.2;
+/// Circles with less of their bins covered are not looked at further.
+const LEAST_COVERAGE: f64 = 0.3;
 /// Share of a bin's length that must be edges.
 const BIN_SHARE: f32 = 0.4;
 
@@ -73,10 +81,14 @@ impl Trial {
 pub(super) fn fit(buckets: &Buckets, start: &Disc, most_oval: f64) -> Option<Arc> {
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let radius = start.radius as f32;
-    let near: Vec<GroundEdge> = buckets.near_rim(start, 0.35 * radius).copied().collect();
+    let near: Vec<GroundEdge> =
+        buckets.near_rim(start, GATHERED * radius).filter(|e| relative(e, start).1.abs() > GATHERED_COSINE).copied().collect();
     let mut trial = Trial { disc: *start, oval: [0.0; 2], most_oval: 0.0 };
     for (pass, width) in RING.into_iter().enumerate() {
         if pass == 2 {
+            if share(&near, &trial, width) < LEAST_SHARE {
+                return None;
+            }
             trial.most_oval = most_oval;
         }
         for _ in 0..if pass < 2 { 2 } else { 3 } {
@@ -87,7 +99,26 @@ pub(super) fn fit(buckets: &Buckets, start: &Disc, most_oval: f64) -> Option<Arc
             }
         }
     }
-    Some(support(&near, &trial))
+    if share(&near, &trial, 0.0) < LEAST_SHARE {
+        return None;
+    }
+    let arc = support(&near, &trial);
+    if arc.coverage < LEAST_COVERAGE {
+        return None;
+    }
+    let around: Vec<GroundEdge> = buckets.near_rim(&trial.disc, 0.25 * radius).copied().collect();
+    Some(support(&around, &trial))
+}
+
+/// Length of the edges along a circle, relative to it.
+fn share(edges: &[GroundEdge], trial: &Trial, width: f32) -> f32 {
+    #[expect(clippy::cast_possible_truncation, reason = "mm")]
+    let radius = trial.disc.radius as f32;
+    let along = |e: &&GroundEdge| {
+        let (distance, cosine) = relative(e, &trial.disc);
+        cosine.abs() >= LEAST_COSINE && trial.off(e, distance).0.abs() <= (width * radius).max(RING_PX * e.scale)
+    };
+    edges.iter().filter(along).map(|e| e.length).sum::<f32>() / (std::f32::consts::TAU * radius)
 }
 
 /// Fits again, from close by.

@@ -3,9 +3,6 @@
 use super::ground::GroundEdge;
 use super::votes::Disc;
 
-/// Squares along the longer side of the searched ground.
-const SQUARES: f32 = 96.0;
-
 /// Edges on the plane by square.
 pub(super) struct Buckets {
     left: f32,
@@ -20,12 +17,13 @@ pub(super) struct Buckets {
 
 impl Buckets {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "squares")]
-    pub(super) fn new(edges: &[GroundEdge]) -> Self {
+    /// `squares`: how many along the longer side of the searched ground; many for places, few for circles.
+    pub(super) fn new(edges: &[GroundEdge], squares: u16) -> Self {
         let bound = |of: fn(&GroundEdge) -> f32| {
             edges.iter().map(of).fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
         };
         let ((left, right), (near, far)) = (bound(|e| e.x), bound(|e| e.y));
-        let side = ((right - left).max(far - near) / SQUARES).max(1.0);
+        let side = ((right - left).max(far - near) / f32::from(squares)).max(1.0);
         let cells = |extent: f32| if extent.is_finite() { (extent / side) as usize + 1 } else { 1 };
         let (columns, rows) = (cells(right - left), cells(far - near));
         let square = |e: &GroundEdge| ((e.y - near) / side) as usize * columns + ((e.x - left) / side) as usize;

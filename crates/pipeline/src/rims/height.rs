@@ -33,19 +33,23 @@ pub enum HeightSource {
 /// Height over diameter: median and standard deviation of its logarithm. Bowls lie between 0.25 and 0.6; cups reach 1.3.
 const COMMON: (f64, f64) = (0.42, 0.5);
 /// Foot over rim radius: mean and standard deviation.
-const COMMON_FOOT: (f64, f64) = (0.62, 0.2);
+const COMMON_FOOT: (f64, f64) = (0.62, 0.15);
 /// Height over diameter that is tried.
 const TRIED: (f64, f64) = (0.12, 1.8);
 /// Ratios of two heights tried one after the other.
-const HEIGHT_STEP: f64 = 1.025;
+const HEIGHT_STEP: f64 = 1.04;
 /// Foot over rim radius that is tried, and its steps.
-const FOOT: (f64, f64, f64) = (0.3, 1.04, 0.02);
-/// Degrees between the places of the foot that are looked at.
-const PLACE_DEG: f64 = 4.0;
+const FOOT: (f64, f64, f64) = (0.3, 1.04, 0.04);
+/// Scaled pixels between the places that are looked at.
+const STEP_PX: f64 = 3.0;
+/// Scaled pixels from the rim within which edges are the rim's.
+const CLEAR_PX: f64 = 3.0;
 /// A foot shows an edge at this share of its places, a wall (seldom straight) at this share of its.
-const SHOWS: (f64, f64) = (0.85, 0.5);
+const SHOWS: (f64, f64) = (0.85, 0.4);
+/// Walls bulge, feet have rounded edges and shadows: relative standard deviation of a height from that.
+const MODEL: f64 = 0.08;
 /// Least chance of an edge that means nothing.
-const LEAST_CHANCE: f64 = 0.03;
+const LEAST_CHANCE: f64 = 0.05;
 /// Neighbouring places are not independent: what they say counts this much.
 const INDEPENDENT: f64 = 0.5;
 /// Edges within this many scaled pixels are the foot's ...
@@ -67,7 +71,7 @@ pub(super) fn of_bowl(buckets: &Buckets, rim: &Arc, camera_height_mm: f64) -> Ri
     let variance = trials.iter().map(|t| weight(t) * (t.height_mm - mean).powi(2)).sum::<f64>() / sum;
     // The foot has been seen where the places looked at say so, whatever bowls commonly are.
     let source = if best.seen > 4.0 { HeightSource::Foot } else { HeightSource::Common };
-    RimHeight { mm: mean, sigma_mm: variance.sqrt().max(0.02 * mean), source }
+    RimHeight { mm: mean, sigma_mm: variance.sqrt().hypot(MODEL * mean), source }
 }
 
 /// One height and foot, and the logarithm of how likely they are.
@@ -94,6 +98,7 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_height_mm: f64) -> Vec<Trial> {
                 toward: [-rim.disc.x / away.max(1e-9), -rim.disc.y / away.max(1e-9)],
                 apart: away * (1.0 - shrink),
                 radius: foot * rim.disc.radius * shrink,
+                step: STEP_PX * std::f64::consts::TAU * rim.disc.radius / rim.perimeter_px,
             };
             let seen = INDEPENDENT * outline.seen(buckets, chance);
             let likely_foot = -0.5 * ((foot - COMMON_FOOT.0) / COMMON_FOOT.1).powi(2);
@@ -114,6 +119,8 @@ struct Outline<'a> {
     apart: f64,
     /// Radius of the foot.
     radius: f64,
+    /// Distance of the places that are looked at.
+    step: f64,
 }
 
 impl Outline<'_> {
@@ -124,34 +131,41 @@ impl Outline<'_> {
             return 0.0; // hidden behind the rim
         }
         // The line around both circles leaves the foot where both normals agree.
-        let exposed_deg = cosine.max(-1.0).acos().to_degrees();
+        let exposed = cosine.max(-1.0).acos();
         let heading = self.toward[1].atan2(self.toward[0]);
         let center = [self.rim.disc.x + self.toward[0] * self.apart, self.rim.disc.y + self.toward[1] * self.apart];
-        let says = |held: bool, shows: f64| if held { (shows / chance).ln() } else { ((1.0 - shows) / (1.0 - chance)).ln() };
         let mut sum = 0.0;
-        #[expect(clippy::cast_possible_truncation, reason = "at most 45 places")]
-        let places = (exposed_deg / PLACE_DEG) as i32;
+        let says = |held: bool, shows: f64| if held { (shows / chance).ln() } else { ((1.0 - shows) / (1.0 - chance)).ln() };
+        let rim = &self.rim.disc;
+        // On the rim itself, edges are the rim's.
+        let clear = |at: [f64; 2]| (at[0] - rim.x).hypot(at[1] - rim.y) - rim.radius > CLEAR_PX * self.step / STEP_PX;
+        let mut look = |at: [f64; 2], normal: [f64; 2], shows: f64| {
+            if clear(at) {
+                sum += says(has_edge(buckets, at, normal), shows);
+            }
+        };
+        let turn = (self.step / self.radius).min(0.5);
+        #[expect(clippy::cast_possible_truncation, reason = "places along half a foot")]
+        let places = (exposed / turn) as i32;
         for place in -places..=places {
-            let angle = heading + (f64::from(place) * PLACE_DEG).to_radians();
+            let angle = heading + f64::from(place) * turn;
             let normal = [angle.cos(), angle.sin()];
-            let at = [center[0] + self.radius * normal[0], center[1] + self.radius * normal[1]];
-            sum += says(has_edge(buckets, at, normal), SHOWS.0);
+            look([center[0] + self.radius * normal[0], center[1] + self.radius * normal[1]], normal, SHOWS.0);
         }
-        let length = (self.apart.powi(2) - (self.rim.disc.radius - self.radius).powi(2)).sqrt();
-        let step = PLACE_DEG.to_radians() * self.radius;
+        let length = (self.apart.powi(2) - (rim.radius - self.radius).powi(2)).sqrt();
         for side in [-1.0, 1.0] {
-            let angle = heading + side * exposed_deg.to_radians();
+            let angle = heading + side * exposed;
             let normal = [angle.cos(), angle.sin()];
-            let mut along = step;
+            let mut along = self.step;
             while along < length {
                 let share = along / length;
                 let at = [0, 1].map(|i| {
-                    let rim = [self.rim.disc.x, self.rim.disc.y][i] + self.rim.disc.radius * normal[i];
+                    let rim = [rim.x, rim.y][i] + rim.radius * normal[i];
                     let foot = center[i] + self.radius * normal[i];
                     foot + (rim - foot) * share
                 });
-                sum += says(has_edge(buckets, at, normal), SHOWS.1);
-                along += step;
+                look(at, normal, SHOWS.1);
+                along += self.step;
             }
         }
         sum

@@ -20,10 +20,11 @@ mod scaled;
 mod search;
 mod select;
 mod significance;
+mod sizes;
 mod votes;
 
 use ingest::Picture;
-use model::{Feature, Mark, ObjectMarks, View};
+use model::{Feature, Kind, Mark, ObjectMarks, View};
 use nalgebra::{Point2, Point3};
 
 use buckets::Buckets;
@@ -35,10 +36,14 @@ use scaled::Scaled;
 pub struct Rim {
     /// From 0 to 1: how sure it is that this is the rim of a container.
     pub confidence: f64,
+    /// What it looks like: plates are flat and large.
+    pub kind: Kind,
     /// Where the centre of the rim appears.
     pub center_px: Point2<f64>,
     /// Points along it, in order, where the picture shows it.
     pub points_px: Vec<Point2<f64>>,
+    /// Length of the rim as it appears.
+    pub perimeter_px: f64,
     /// Share of the rim that has an edge along it, of what lies in the picture.
     pub coverage: f64,
     /// Its height if it is a bowl's.
@@ -60,6 +65,9 @@ pub enum RimError {
     },
 }
 
+/// Squares of the ground for finding edges along circles, and at places.
+const CIRCLE_SQUARES: u16 = 96;
+const PLACE_SQUARES: u16 = 320;
 /// Fewer points do not hold a rim.
 const LEAST_POINTS: usize = 12;
 
@@ -72,21 +80,29 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
     if found_px != view.camera().size_px() {
         return Err(RimError::Size { found_px, expected_px: view.camera().size_px() });
     }
+    let t = std::time::Instant::now();
+    let lap = |what: &str| eprint!("{what} {:.1} ms; ", t.elapsed().as_secs_f64() * 1e3);
     let scaled = Scaled::of(picture);
-    let buckets = Buckets::new(&ground::ground_edges(view, &scaled));
-    let rims = select::rims(search::circles(view, &buckets));
+    lap("scaled");
+    let buckets = Buckets::new(&ground::ground_edges(view, &scaled), CIRCLE_SQUARES);
+    lap("edges");
+    let rims = search::rims(view, &buckets);
+    lap("search");
+    let fine = Buckets::new(buckets.edges(), PLACE_SQUARES);
     Ok(rims
         .iter()
         .filter_map(|found| {
             let points_px = refine::follow(picture, view, &found.arc, scaled.factor);
             let center_px = view.pixel_of(Point3::new(found.arc.disc.x, found.arc.disc.y, 0.0)).ok()?;
             (points_px.len() >= LEAST_POINTS).then(|| Rim {
+                kind: Kind::Bowl,
                 confidence: found.confidence,
                 center_px,
                 points_px,
+                perimeter_px: found.arc.perimeter_px * scaled.factor as f64,
                 coverage: found.evidence.coverage,
-                debug: vec![found.arc.disc.x, found.arc.disc.y, found.arc.disc.radius, found.arc.residual_px, found.arc.contrast, found.arc.chance, found.evidence.false_alarms_log10, found.evidence.steady, found.evidence.visible],
-                height: height::of_bowl(&buckets, &found.arc, view.pose().camera_height_mm()),
+                debug: vec![found.arc.disc.x, found.arc.disc.y, found.arc.disc.radius, found.arc.residual_px, found.arc.contrast, found.arc.chance, found.evidence.false_alarms_log10, found.evidence.steady, found.evidence.visible, found.evidence.far],
+                height: height::of_bowl(&fine, &found.arc, view.pose().camera_height_mm()),
             })
         })
         .collect())

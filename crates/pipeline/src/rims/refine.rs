@@ -8,7 +8,7 @@ use super::arcs::{Arc, BINS};
 
 /// Pixels between places where the rim is looked for, and how many there are at least and at most.
 const SPACING_PX: f64 = 4.0;
-const PLACES: (f64, f64) = (48.0, 180.0);
+const PLACES: (f64, f64) = (48.0, 96.0);
 /// The edge lies within this many scaled pixels of the fitted circle ...
 const REACH_PX: f64 = 1.2;
 /// ... and has this share of the median edge's strength.

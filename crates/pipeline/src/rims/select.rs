@@ -17,23 +17,33 @@ const LEAST_CONFIDENCE: f64 = 0.2;
 const RAISED: f64 = 0.2;
 /// ... if it is smaller than this share of it.
 const STANDS_IN: f64 = 0.85;
+/// An outer edge is about as likely as the inner one, this share of it at least ...
+const AS_LIKELY: f64 = 0.8;
+/// ... and no larger than this multiple.
+const THICKEST: f64 = 1.3;
 
-/// Keeps the most likely circle of each container.
-pub(super) fn rims(mut all: Vec<Scored>) -> Vec<Scored> {
+/// Keeps one circle of each container, the likeliest first: of circles about one centre that are about as likely, the
+/// largest.
+pub(super) fn one_per_container(mut all: Vec<Scored>) -> Vec<Scored> {
     all.retain(|s| s.confidence >= LEAST_CONFIDENCE);
-    all.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
+    all.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
     let mut kept: Vec<Scored> = Vec::new();
-    for s in all {
-        if kept.iter().all(|k| are_two(&k.arc, &s.arc)) {
-            kept.push(s);
+    for s in &all {
+        if kept.iter().any(|k| !are_two(&k.arc, &s.arc)) {
+            continue;
         }
+        let around = all.iter().filter(|o| o.confidence >= AS_LIKELY * s.confidence && is_around(&o.arc, &s.arc));
+        let largest = around.max_by(|a, b| a.arc.disc.radius.total_cmp(&b.arc.disc.radius)).unwrap_or(s);
+        kept.push(largest.clone());
     }
     kept
 }
 
-/// Of circles about one centre with like support, the larger one is the rim.
-fn rank(s: &Scored) -> f64 {
-    s.confidence
+/// Whether a circle is the outer edge of what another one is the inner edge of.
+fn is_around(outer: &Arc, inner: &Arc) -> bool {
+    let apart = (outer.disc.x - inner.disc.x).hypot(outer.disc.y - inner.disc.y);
+    let wider = outer.disc.radius - inner.disc.radius;
+    wider > 0.0 && outer.disc.radius < THICKEST * inner.disc.radius && apart <= 1.2 * wider
 }
 
 /// Whether two circles can be the rims of two containers.

@@ -17,6 +17,8 @@ pub(super) struct Evidence {
     pub visible: f64,
     /// Share of what lies in the picture that has an edge along it.
     pub coverage: f64,
+    /// The same for the half that lies further from the wearer, which a container's own wall never hides: a foot has none.
+    pub far: f64,
     /// Share of the edges that agree with their neighbours on the side where it is brighter.
     pub steady: f64,
     /// Common logarithm of the expected number of circles as good as this one in a picture of chance edges.
@@ -34,23 +36,29 @@ impl Evidence {
             .map(|i| arc.bins[i] == arc.bins[(i + 1) % BINS])
             .collect();
         let steady = pairs.iter().filter(|same| **same).count() as f64 / pairs.len().max(1) as f64;
+        let away = arc.disc.y.atan2(arc.disc.x);
+        let is_far = |i: usize| ((i as f64 + 0.5) / BINS as f64 * std::f64::consts::TAU - away).cos() > 0.3;
+        let far = (0..BINS).filter(|i| visible[*i] && is_far(*i));
+        let (far_seen, far_held) = far.fold((0_u32, 0_u32), |(n, held), i| (n + 1, held + u32::from(arc.bins[i] != 0)));
         let share = seen as f64 / BINS as f64;
         let coverage = held as f64 / seen.max(1) as f64;
         let trials = (arc.perimeter_px * share / INDEPENDENT_PX).min(seen as f64);
         Self {
             visible: share,
             coverage,
+            far: if far_seen > 0 { f64::from(far_held) / f64::from(far_seen) } else { 1.0 },
             steady,
             false_alarms_log10: TESTS_LOG10 + binomial_tail_log10(trials, coverage, arc.chance),
         }
     }
 
-    /// From 0 to 1.
+    /// From 0 to 1: a logistic function of what speaks for it.
     pub(super) fn confidence(&self, arc: &Arc) -> f64 {
-        let score = 14.0 * (self.coverage * self.visible.sqrt() - 0.52)
+        let score = 12.0 * (self.coverage * self.visible.sqrt() - 0.58)
+            + 0.12 * ((-self.false_alarms_log10).min(60.0) - 16.0)
             + 3.0 * (self.steady - 0.8)
             - 2.0 * (arc.residual_px - 0.45)
-            - 0.3 * (self.false_alarms_log10 + 8.0).max(0.0);
+            - 8.0 * (0.4 - self.far).max(0.0);
         1.0 / (1.0 + (-score).exp())
     }
 }

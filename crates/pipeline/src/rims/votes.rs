@@ -16,15 +16,16 @@ const LAYER_RATIO: f32 = 1.1;
 const CELL: f32 = 0.1;
 /// A circle has at least this many scaled pixels from its centre to its rim, in the direction where it has fewest.
 const LEAST_RADIUS_PX: f32 = 5.0;
-/// Peaks kept per layer.
-const PEAKS: usize = 24;
+/// Peaks kept per layer, and of all layers.
+const PEAKS: usize = 20;
+const MOST: usize = 250;
 /// A peak is at least this share of a circle; chance included.
-const LEAST_SHARE: f32 = 0.12;
+const LEAST_SHARE: f32 = 0.2;
 /// Cells of a layer; a layer that would have more is not searched.
 const MOST_CELLS: usize = 1 << 21;
 
-/// Likely circles with radii between the limits (mm on the plane Z = 0), with the share of the circle that voted for them.
-pub(super) fn likely_discs(edges: &[GroundEdge], [smallest, largest]: [f64; 2]) -> Vec<(Disc, f32)> {
+/// Likely circles with radii between the limits (mm on the plane Z = 0), those with most votes for their length first.
+pub(super) fn likely_discs(edges: &[GroundEdge], [smallest, largest]: [f64; 2]) -> Vec<Disc> {
     let mut found = Vec::new();
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let (mut radius, largest) = (smallest as f32, largest as f32);
@@ -34,7 +35,9 @@ pub(super) fn likely_discs(edges: &[GroundEdge], [smallest, largest]: [f64; 2]) 
         }
         radius *= LAYER_RATIO;
     }
-    found
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    found.truncate(MOST);
+    found.into_iter().map(|(disc, _)| disc).collect()
 }
 
 struct Layer {
