@@ -11,7 +11,7 @@ pub(super) const BINS: usize = 72;
 /// Widths of the ring around the circle in which edges count, in radii, from first to last pass.
 const RING: [f32; 4] = [0.12, 0.06, 0.03, 0.0];
 /// Least width of the ring, in scaled pixels; of the last pass.
-const RING_PX: f32 = 1.5;
+pub(super) const RING_PX: f32 = 1.5;
 /// An edge of a circle points to its centre within 18 degrees.
 const LEAST_COSINE: f32 = 0.95;
 /// Edges with less than this cosine (40 degrees off) certainly belong to something else.
@@ -74,6 +74,18 @@ impl Trial {
         #[expect(clippy::cast_possible_truncation, reason = "mm")]
         ((d - self.disc.radius - oval) as f32, [cos, sin])
     }
+
+    /// For an edge that runs along circles about the centre: its distance outside the curve in mm, and its bin.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "bins")]
+    pub(super) fn along(&self, e: &GroundEdge) -> Option<(f32, usize)> {
+        let (distance, cosine) = relative(e, &self.disc);
+        if cosine.abs() < LEAST_COSINE {
+            return None;
+        }
+        let (off, [cos, sin]) = self.off(e, distance);
+        let turn = sin.atan2(cos).rem_euclid(std::f64::consts::TAU) / std::f64::consts::TAU;
+        Some((off, ((turn * BINS as f64) as usize).min(BINS - 1)))
+    }
 }
 
 /// Fits a likely circle to the edges near it; none when it has too few, or runs away. `most_oval`: how far from round,
@@ -133,18 +145,43 @@ pub(super) fn refit(buckets: &Buckets, start: &Arc, most_oval: f64) -> Option<Ar
     Some(support(&near, &trial))
 }
 
-/// One Gauss-Newton step with Tukey's weights.
+/// One Gauss-Newton step with Tukey's weights, of centre and radius and, where the circle may look oval, of that.
 fn step(edges: &[GroundEdge], trial: &Trial, width: f32) -> Option<Trial> {
-    let (mut normal, mut right) = (SMatrix::<f64, 5, 5>::zeros(), SVector::<f64, 5>::zeros());
-    let disc = trial.disc;
+    if trial.most_oval > 0.0 {
+        let (mut normal, mut right) = normal_equations(edges, trial, width, |cos, sin| {
+            SVector::<f64, 5>::from([cos, sin, 1.0, cos * cos - sin * sin, 2.0 * cos * sin])
+        });
+        let sigma = 0.5 * trial.most_oval * trial.disc.radius;
+        for i in 3..5 {
+            normal[(i, i)] += 1.0 / (sigma * sigma);
+            right[i] -= trial.oval[i - 3] / (sigma * sigma);
+        }
+        let change = normal.cholesky()?.solve(&right);
+        moved(trial, [change[0], change[1], change[2]], [change[3], change[4]])
+    } else {
+        let (normal, right) =
+            normal_equations(edges, trial, width, |cos, sin| SVector::<f64, 3>::from([cos, sin, 1.0]));
+        let change = normal.cholesky()?.solve(&right);
+        moved(trial, [change[0], change[1], change[2]], [0.0; 2])
+    }
+}
+
+/// The normal equations of the edges' distances from the curve. `row`: derivatives by the unknowns in a direction.
+fn normal_equations<const N: usize>(
+    edges: &[GroundEdge],
+    trial: &Trial,
+    width: f32,
+    row: impl Fn(f64, f64) -> SVector<f64, N>,
+) -> (SMatrix<f64, N, N>, SVector<f64, N>) {
+    let (mut normal, mut right) = (SMatrix::<f64, N, N>::zeros(), SVector::<f64, N>::zeros());
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
-    let radius = disc.radius as f32;
+    let radius = trial.disc.radius as f32;
     for e in edges {
-        let (distance, cosine) = relative(e, &disc);
-        let ring = (width * radius).max(RING_PX * e.scale);
+        let (distance, cosine) = relative(e, &trial.disc);
         if cosine.abs() < LEAST_COSINE {
             continue;
         }
+        let ring = (width * radius).max(RING_PX * e.scale);
         let (off, [cos, sin]) = trial.off(e, distance);
         if off.abs() >= ring {
             continue;
@@ -152,27 +189,29 @@ fn step(edges: &[GroundEdge], trial: &Trial, width: f32) -> Option<Trial> {
         let tukey = (1.0 - (off / ring).powi(2)).powi(2);
         // An edge stands for its length; its place is uncertain by pixels.
         let weight = f64::from(tukey * e.length / (e.scale * e.scale * e.scale));
-        let row = SVector::<f64, 5>::from([cos, sin, 1.0, cos * cos - sin * sin, 2.0 * cos * sin]);
-        normal += row * row.transpose() * weight;
-        right += row * (weight * f64::from(off));
+        let row = row(cos, sin);
+        let weighted = row * weight;
+        for i in 0..N {
+            for j in i..N {
+                normal[(i, j)] += row[i] * weighted[j];
+            }
+        }
+        right += weighted * f64::from(off);
     }
+    normal.fill_lower_triangle_with_upper_triangle();
     // Too short an arc does not fix a circle: keep it still rather than let it run.
     let damping = 1e-3 * normal[(2, 2)];
     for i in 0..3 {
         normal[(i, i)] += damping;
     }
-    let sigma = 0.5 * trial.most_oval * disc.radius;
-    for i in 3..5 {
-        if sigma > 0.0 {
-            normal[(i, i)] += 1.0 / (sigma * sigma);
-            right[i] -= trial.oval[i - 3] / (sigma * sigma);
-        } else {
-            normal[(i, i)] = f64::MAX.sqrt();
-        }
-    }
-    let change = normal.cholesky()?.solve(&right);
-    let disc = Disc { x: disc.x + change[0], y: disc.y + change[1], radius: disc.radius + change[2] };
-    let mut oval = [trial.oval[0] + change[3], trial.oval[1] + change[4]];
+    (normal, right)
+}
+
+/// A circle after a step; none where it has gone astray.
+fn moved(trial: &Trial, disc: [f64; 3], oval: [f64; 2]) -> Option<Trial> {
+    let disc =
+        Disc { x: trial.disc.x + disc[0], y: trial.disc.y + disc[1], radius: trial.disc.radius + disc[2] };
+    let mut oval = [trial.oval[0] + oval[0], trial.oval[1] + oval[1]];
     let (size, most) = (oval[0].hypot(oval[1]), trial.most_oval * disc.radius);
     if size > most {
         oval = oval.map(|o| o * most / size);
@@ -182,10 +221,9 @@ fn step(edges: &[GroundEdge], trial: &Trial, width: f32) -> Option<Trial> {
 
 /// The edges along a circle.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "bins")]
-pub(super) fn support(edges: &[GroundEdge], trial: &Trial) -> Arc {
+fn support(edges: &[GroundEdge], trial: &Trial) -> Arc {
     let disc = &trial.disc;
     let radius = disc.radius as f32;
-    let bin_mm = std::f32::consts::TAU * radius / BINS as f32;
     let (mut bright_outside, mut bright_inside) = ([0.0_f32; BINS], [0.0_f32; BINS]);
     let (mut squares, mut contrast, mut length) = (0.0_f64, 0.0_f64, 0.0_f64);
     let (mut other, mut scales, mut count) = (0.0_f64, 0.0_f64, 0_usize);
@@ -212,7 +250,7 @@ pub(super) fn support(edges: &[GroundEdge], trial: &Trial) -> Arc {
     }
     let mut bins = [0_i8; BINS];
     for (i, bin) in bins.iter_mut().enumerate() {
-        if bright_outside[i].max(bright_inside[i]) >= BIN_SHARE * bin_mm {
+        if bright_outside[i].max(bright_inside[i]) >= bin_length(radius) {
             *bin = if bright_outside[i] > bright_inside[i] { 1 } else { -1 };
         }
     }
@@ -233,7 +271,19 @@ pub(super) fn support(edges: &[GroundEdge], trial: &Trial) -> Arc {
     }
 }
 
+/// Length of edges that covers a bin of a circle.
+#[expect(clippy::cast_precision_loss, reason = "bins")]
+pub(super) fn bin_length(radius: f32) -> f32 {
+    BIN_SHARE * std::f32::consts::TAU * radius / BINS as f32
+}
+
 impl Arc {
+    /// The same about the same centre, larger.
+    pub(super) fn scaled(&self, ratio: f64) -> Self {
+        let disc = Disc { radius: self.disc.radius * ratio, ..self.disc };
+        Self { disc, oval: self.oval.map(|o| o * ratio), ..self.clone() }
+    }
+
     /// The place of the curve at an angle about its centre (radians from X), in mm on the plane Z = 0.
     pub(super) fn at(&self, angle: f64) -> [f64; 2] {
         let radius = self.disc.radius + self.oval[0] * (2.0 * angle).cos() + self.oval[1] * (2.0 * angle).sin();

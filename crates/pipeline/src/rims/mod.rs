@@ -27,6 +27,7 @@ use ingest::Picture;
 use model::{Feature, Kind, Mark, ObjectMarks, View};
 use nalgebra::{Point2, Point3};
 
+use arcs::Arc;
 use buckets::Buckets;
 pub use height::{HeightSource, RimHeight};
 use scaled::Scaled;
@@ -68,6 +69,9 @@ pub enum RimError {
 /// Squares of the ground for finding edges along circles, and at places.
 const CIRCLE_SQUARES: u16 = 96;
 const PLACE_SQUARES: u16 = 320;
+/// Plates are wider than this, and lower than this share of their diameter.
+const PLATE_MM: f64 = 170.0;
+const PLATE_HEIGHT: f64 = 0.3;
 /// Fewer points do not hold a rim.
 const LEAST_POINTS: usize = 12;
 
@@ -92,20 +96,28 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
     Ok(rims
         .iter()
         .filter_map(|found| {
+            let height = height::of_bowl(&fine, &found.arc, view.pose().camera_height_mm());
             let points_px = refine::follow(picture, view, &found.arc, scaled.factor);
             let center_px = view.pixel_of(Point3::new(found.arc.disc.x, found.arc.disc.y, 0.0)).ok()?;
             (points_px.len() >= LEAST_POINTS).then(|| Rim {
-                kind: Kind::Bowl,
+                kind: kind(&found.arc, height, view),
                 confidence: found.confidence,
                 center_px,
                 points_px,
                 perimeter_px: found.arc.perimeter_px * scaled.factor as f64,
                 coverage: found.evidence.coverage,
                 debug: vec![found.arc.disc.x, found.arc.disc.y, found.arc.disc.radius, found.arc.residual_px, found.arc.contrast, found.arc.chance, found.evidence.false_alarms_log10, found.evidence.steady, found.evidence.visible, found.evidence.far],
-                height: height::of_bowl(&fine, &found.arc, view.pose().camera_height_mm()),
+                height,
             })
         })
         .collect())
+}
+
+/// What it looks like: a plate is wide, and shows no wall or a low one.
+fn kind(arc: &Arc, height: RimHeight, view: &View) -> Kind {
+    let diameter_mm = 2.0 * arc.disc.radius * (1.0 - height.mm / view.pose().camera_height_mm());
+    let shows_a_wall = height.source == HeightSource::Foot && height.mm > PLATE_HEIGHT * diameter_mm;
+    if 2.0 * arc.disc.radius >= PLATE_MM && !shows_a_wall { Kind::Plate } else { Kind::Bowl }
 }
 
 impl Rim {

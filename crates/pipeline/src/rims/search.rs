@@ -17,6 +17,14 @@ const POSE_ERROR_RAD: f64 = 0.03;
 const ROUND: f64 = 0.01;
 /// Circles that are the same to this share of the radius are one.
 const SAME: f64 = 0.02;
+/// Circles less likely than this are not followed up, and not told in the end.
+const WORTH_A_TRY: f64 = 0.05;
+const LEAST_CONFIDENCE: f64 = 0.2;
+/// As many of the likeliest circles of a container are led outward.
+const LED_OUTWARD: usize = 6;
+/// Circles nearer to each other than this share of the radius may end at the same rim.
+const NEAR: f64 = 0.3;
+
 /// How far from round a level circle looks for an error of the pose: half of what stretches it, cot(depression) per radian.
 fn most_oval(view: &View, disc: &Disc) -> f64 {
     ROUND + 0.5 * POSE_ERROR_RAD * disc.x.hypot(disc.y) / view.pose().camera_height_mm()
@@ -29,8 +37,32 @@ pub(super) fn rims(view: &View, buckets: &Buckets) -> Vec<Scored> {
         Scored { confidence: evidence.confidence(&arc), evidence, arc }
     };
     let likely = likely_discs(buckets.edges(), RADII_MM);
-    let mut arcs: Vec<Arc> =
-        likely.iter().filter_map(|disc| arcs::fit(buckets, disc, most_oval(view, disc))).collect();
+    let fitted = |discs: &[&Disc]| -> Vec<Scored> {
+        let arcs = discs.iter().filter_map(|disc| arcs::fit(buckets, disc, most_oval(view, disc)));
+        distinct(arcs.filter(|arc| arc.disc.radius >= RADII_MM[0]).collect()).into_iter().map(score).collect()
+    };
+    let peaks: Vec<&Disc> = likely.peaks.iter().collect();
+    let found = select::one_per_container(fitted(&peaks), WORTH_A_TRY);
+    // A fit may end beside the best one, or on an inner edge: whatever was voted for nearby is tried as well, and led outward.
+    let polished = found.into_iter().flat_map(|found| {
+        let near: Vec<&Disc> = likely.all.iter().filter(|disc| are_near(disc, &found.arc.disc)).collect();
+        let mut tried = fitted(&near);
+        tried.push(found);
+        tried.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
+        tried.truncate(LED_OUTWARD);
+        let led = tried.iter().map(|inner| {
+            let most = most_oval(view, &inner.arc.disc);
+            score(outermost(buckets, inner.arc.clone(), most))
+        });
+        let outer: Vec<Scored> = led.collect();
+        tried.extend(outer);
+        select::one_per_container(tried, WORTH_A_TRY).into_iter().take(1)
+    });
+    select::one_per_container(polished.collect(), LEAST_CONFIDENCE)
+}
+
+/// Leaves one of those that are the same, with the best support.
+fn distinct(mut arcs: Vec<Arc>) -> Vec<Arc> {
     arcs.sort_by(|a, b| b.coverage.total_cmp(&a.coverage));
     let mut distinct: Vec<Arc> = Vec::new();
     for arc in arcs {
@@ -38,12 +70,12 @@ pub(super) fn rims(view: &View, buckets: &Buckets) -> Vec<Scored> {
             distinct.push(arc);
         }
     }
-    let inner = select::one_per_container(distinct.into_iter().map(score).collect());
-    let outer = inner.into_iter().map(|inner| {
-        let most = most_oval(view, &inner.arc.disc);
-        score(outermost(buckets, inner.arc, most))
-    });
-    select::one_per_container(outer.filter(|s| s.arc.disc.radius >= RADII_MM[0]).collect())
+    distinct
+}
+
+/// Whether a fit that starts from one circle may end at another one.
+fn are_near(a: &Disc, b: &Disc) -> bool {
+    (a.x - b.x).hypot(a.y - b.y) < NEAR * b.radius && (a.radius / b.radius).ln().abs() < NEAR
 }
 
 fn are_same(a: &Disc, b: &Disc) -> bool {

@@ -11,8 +11,6 @@ pub(super) struct Scored {
     pub confidence: f64,
 }
 
-/// A circle less likely than this is none.
-const LEAST_CONFIDENCE: f64 = 0.2;
 /// A circle raised above another one by this share of its radius (seen on Z = 0) stands in or on it.
 const RAISED: f64 = 0.2;
 /// ... if it is smaller than this share of it.
@@ -23,9 +21,9 @@ const AS_LIKELY: f64 = 0.8;
 const THICKEST: f64 = 1.3;
 
 /// Keeps one circle of each container, the likeliest first: of circles about one centre that are about as likely, the
-/// largest.
-pub(super) fn one_per_container(mut all: Vec<Scored>) -> Vec<Scored> {
-    all.retain(|s| s.confidence >= LEAST_CONFIDENCE);
+/// largest. Those with less than the least confidence are none.
+pub(super) fn one_per_container(mut all: Vec<Scored>, least_confidence: f64) -> Vec<Scored> {
+    all.retain(|s| s.confidence >= least_confidence);
     all.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
     let mut kept: Vec<Scored> = Vec::new();
     for s in &all {

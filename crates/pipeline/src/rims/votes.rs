@@ -10,22 +10,32 @@ pub(super) struct Disc {
     pub radius: f64,
 }
 
+/// Circles voted for, those with most votes for their length first.
+pub(super) struct Likely {
+    /// One for each group of neighbours.
+    pub peaks: Vec<Disc>,
+    /// All of them.
+    pub all: Vec<Disc>,
+}
+
 /// Ratio of the radii of two layers.
 const LAYER_RATIO: f32 = 1.1;
 /// Side of a cell, in radii: a normal that is wrong by three degrees stays within one.
 const CELL: f32 = 0.1;
+/// Peaks in layers nearer than this may be one.
+const NEIGHBOUR_RATIO: f64 = 1.12;
 /// A circle has at least this many scaled pixels from its centre to its rim, in the direction where it has fewest.
 const LEAST_RADIUS_PX: f32 = 5.0;
 /// Peaks kept per layer, and of all layers.
 const PEAKS: usize = 20;
-const MOST: usize = 250;
+const MOST: usize = 320;
 /// A peak is at least this share of a circle; chance included.
 const LEAST_SHARE: f32 = 0.2;
 /// Cells of a layer; a layer that would have more is not searched.
 const MOST_CELLS: usize = 1 << 21;
 
-/// Likely circles with radii between the limits (mm on the plane Z = 0), those with most votes for their length first.
-pub(super) fn likely_discs(edges: &[GroundEdge], [smallest, largest]: [f64; 2]) -> Vec<Disc> {
+/// Likely circles with radii between the limits (mm on the plane Z = 0).
+pub(super) fn likely_discs(edges: &[GroundEdge], [smallest, largest]: [f64; 2]) -> Likely {
     let mut found = Vec::new();
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let (mut radius, largest) = (smallest as f32, largest as f32);
@@ -36,8 +46,21 @@ pub(super) fn likely_discs(edges: &[GroundEdge], [smallest, largest]: [f64; 2]) 
         radius *= LAYER_RATIO;
     }
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
-    found.truncate(MOST);
-    found.into_iter().map(|(disc, _)| disc).collect()
+    let all: Vec<Disc> = found.into_iter().map(|(disc, _)| disc).collect();
+    let mut peaks: Vec<Disc> = Vec::new();
+    for disc in &all {
+        if peaks.len() < MOST && !peaks.iter().any(|other| are_neighbours(disc, other)) {
+            peaks.push(*disc);
+        }
+    }
+    Likely { peaks, all }
+}
+
+/// Whether two peaks are one, seen in neighbouring layers or cells.
+fn are_neighbours(a: &Disc, b: &Disc) -> bool {
+    let ratio = a.radius / b.radius;
+    (1.0 / NEIGHBOUR_RATIO..NEIGHBOUR_RATIO).contains(&ratio)
+        && (a.x - b.x).hypot(a.y - b.y) < 1.1 * f64::from(CELL) * a.radius
 }
 
 struct Layer {
