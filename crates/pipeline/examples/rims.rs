@@ -1,30 +1,36 @@
-//! dev
-use ingest::Picture;
-use model::*;
-fn main() {
-    let a: Vec<String> = std::env::args().collect();
-    let n = |i: usize| a[i].parse::<f64>().unwrap();
-    // image fx fy cx cy pitch roll range lens k1 k2 k3 k4
-    let bytes = std::fs::read(&a[1]).unwrap();
-    let t = std::time::Instant::now();
-    let p = Picture::decode(&bytes).unwrap();
-    let decode = t.elapsed().as_secs_f64() * 1e3;
-    let lens = match a.get(9).map(String::as_str) {
-        Some("radial") => LensModel::Radial(lens::Radial { k1: n(10) }),
-        Some("division") => LensModel::Division(lens::Division { lambda: n(10) }),
-        Some("fisheye") => LensModel::Fisheye(lens::Fisheye { k1: n(10), k2: n(11), k3: n(12), k4: n(13) }),
-        _ => LensModel::None,
+//! Rims found in one picture, as lines of text: a look at the detector without the whole program.
+//!
+//! ```text
+//! cargo run -p aim-batch-pipeline --example rims -- PICTURE CAMERA.toml PITCH_DEG ROLL_DEG RANGE_MM
+//! ```
+
+use std::error::Error;
+use std::path::Path;
+
+use ingest::{Picture, camera};
+use model::{Pose, View};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [picture, camera_file, pitch_deg, roll_deg, range_mm] = arguments.as_slice() else {
+        return Err("usage: rims PICTURE CAMERA.toml PITCH_DEG ROLL_DEG RANGE_MM".into());
     };
-    let camera = Camera::new([p.width_px, p.height_px], [n(2), n(3)], [n(4), n(5)], 0.0, lens).unwrap();
-    let view = View::new(camera, Pose::new(n(6).to_radians(), n(7).to_radians(), n(8)).unwrap());
-    let t = std::time::Instant::now();
-    let rims = aim_batch_pipeline::rims::find_rims(&p, &view).unwrap();
-    eprintln!("decode {decode:.1} ms, rims {:.1} ms", t.elapsed().as_secs_f64() * 1e3);
-    let rows: Vec<_> = rims.iter().map(|r| serde_json::json!({
-        "confidence": r.confidence, "coverage": r.coverage, "center": [r.center_px.x, r.center_px.y],
-        "points": r.points_px.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>(),
-        "height": r.height.mm, "height_sigma": r.height.sigma_mm, "source": format!("{:?}", r.height.source),
-        "debug": r.debug,
-    })).collect();
-    println!("{}", serde_json::Value::from(rows));
+    let number = |text: &String| text.parse::<f64>();
+    let pose = Pose::new(number(pitch_deg)?.to_radians(), number(roll_deg)?.to_radians(), number(range_mm)?)?;
+    let view = View::new(camera::read_file(Path::new(camera_file))?.camera()?, pose);
+    let picture = Picture::decode(&std::fs::read(picture)?)?;
+    for rim in aim_batch_pipeline::rims::find_rims(&picture, &view)? {
+        let ([x, y], radius) = rim.on_table_mm;
+        let (confidence, coverage, points) = (rim.confidence, rim.coverage, rim.points_px.len());
+        let (height, kind) = (rim.height, rim.kind);
+        #[expect(clippy::print_stdout, reason = "an example prints what it found")]
+        {
+            println!(
+                "confidence {confidence:.2}  coverage {coverage:.2}  points {points}  on Z = 0: ({x:.0}, {y:.0}) radius \
+                 {radius:.1} mm  {kind}  height {:.0} +- {:.0} mm ({:?})",
+                height.mm, height.sigma_mm, height.source
+            );
+        }
+    }
+    Ok(())
 }

@@ -1,5 +1,6 @@
 //! Rims, axes and sizes drawn on a picture, for people to look at.
 
+use embedded_graphics::Drawable;
 use embedded_graphics::Pixel;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{OriginDimensions, Point, Size};
@@ -7,7 +8,6 @@ use embedded_graphics::mono_font::{MonoTextStyle, MonoTextStyleBuilder, ascii};
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 use embedded_graphics::primitives::{Line, Primitive, PrimitiveStyle};
 use embedded_graphics::text::Text;
-use embedded_graphics::Drawable;
 use ingest::Picture;
 use model::{Feature, Mark, ObjectMarks, View, fit_circle};
 use nalgebra::{Point2, Point3, Vector2};

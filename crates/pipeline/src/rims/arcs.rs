@@ -8,8 +8,21 @@ use super::votes::Disc;
 
 /// The circle is divided into as many bins.
 pub(super) const BINS: usize = 72;
-/// Widths of the ring around the circle in which edges count, in radii, from first to last pass.
-const RING: [f32; 4] = [0.12, 0.06, 0.03, 0.0];
+/// A part of a fit: how wide the ring around the circle is in which edges count, in radii, for how many steps, and whether
+/// the circle may look oval.
+struct Pass {
+    width: f32,
+    steps: u8,
+    oval: bool,
+}
+
+/// A fit, from rough to fine.
+const PASSES: [Pass; 4] = [
+    Pass { width: 0.12, steps: 2, oval: false },
+    Pass { width: 0.06, steps: 2, oval: false },
+    Pass { width: 0.03, steps: 3, oval: true },
+    Pass { width: 0.0, steps: 3, oval: true },
+];
 /// Least width of the ring, in scaled pixels; of the last pass.
 pub(super) const RING_PX: f32 = 1.5;
 /// An edge of a circle points to its centre within 18 degrees.
@@ -17,10 +30,16 @@ const LEAST_COSINE: f32 = 0.95;
 /// Edges with less than this cosine (40 degrees off) certainly belong to something else.
 const OTHER_COSINE: f32 = 0.766;
 /// Edges that a fit may meet lie in a ring of this width around its start, in radii ...
-const GATHERED: f32 = 0.35;
-/// ... and point to its start's centre within about 35 degrees.
-const GATHERED_COSINE: f32 = 0.82;
-/// A circle with less edge along it, relative to its length, is given up.
+const GATHERED: f32 = 0.25;
+/// ... and point to its start's centre within about 30 degrees.
+const GATHERED_COSINE: f32 = 0.86;
+/// After the rough steps, edges further from the circle than this are left out.
+const KEPT: f32 = 0.12;
+/// The ring about the rim in which other edges are counted, in radii.
+const AROUND: f32 = 0.25;
+/// A circle with less edge in its ring after the rough steps, relative to its length, is given up ...
+const LEAST_START: f32 = 0.25;
+/// ... and one with less along it in the end.
 const LEAST_SHARE: f32 = 0.2;
 /// Circles with less of their bins covered are not looked at further.
 const LEAST_COVERAGE: f64 = 0.3;
@@ -39,7 +58,7 @@ pub(super) struct Arc {
     pub coverage: f64,
     /// Root mean square distance of the edges from the circle, in scaled pixels.
     pub residual_px: f64,
-    /// Mean strength of the edges, levels per scaled pixel.
+    /// Mean strength of the edges, in levels per scaled pixel.
     pub contrast: f64,
     /// Length of other edges (not along circles about this centre) per area around the rim, times the ring's width: the
     /// chance that a place on the rim has an edge along it that means nothing.
@@ -93,17 +112,22 @@ impl Trial {
 pub(super) fn fit(buckets: &Buckets, start: &Disc, most_oval: f64) -> Option<Arc> {
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let radius = start.radius as f32;
-    let near: Vec<GroundEdge> =
-        buckets.near_rim(start, GATHERED * radius).filter(|e| relative(e, start).1.abs() > GATHERED_COSINE).copied().collect();
+    let mut near: Vec<GroundEdge> = Vec::new();
+    buckets.near_rim(start, GATHERED * radius, |e| {
+        if relative(e, start).1.abs() > GATHERED_COSINE {
+            near.push(*e);
+        }
+    });
     let mut trial = Trial { disc: *start, oval: [0.0; 2], most_oval: 0.0 };
-    for (pass, width) in RING.into_iter().enumerate() {
-        if pass == 2 {
-            if share(&near, &trial, width) < LEAST_SHARE {
+    for Pass { width, steps, oval } in PASSES {
+        if oval && trial.most_oval <= 0.0 {
+            if share(&near, &trial, width) < LEAST_START {
                 return None;
             }
             trial.most_oval = most_oval;
+            near.retain(|e| (relative(e, &trial.disc).0 / radius - 1.0).abs() < KEPT);
         }
-        for _ in 0..if pass < 2 { 2 } else { 3 } {
+        for _ in 0..steps {
             trial = step(&near, &trial, width)?;
             let moved = (trial.disc.x - start.x).hypot(trial.disc.y - start.y);
             if moved > 0.3 * start.radius || !(0.75..1.33).contains(&(trial.disc.radius / start.radius)) {
@@ -118,8 +142,7 @@ pub(super) fn fit(buckets: &Buckets, start: &Disc, most_oval: f64) -> Option<Arc
     if arc.coverage < LEAST_COVERAGE {
         return None;
     }
-    let around: Vec<GroundEdge> = buckets.near_rim(&trial.disc, 0.25 * radius).copied().collect();
-    Some(support(&around, &trial))
+    Some(support(&buckets.ring(&trial.disc, AROUND * radius), &trial))
 }
 
 /// Length of the edges along a circle, relative to it.
@@ -137,7 +160,7 @@ fn share(edges: &[GroundEdge], trial: &Trial, width: f32) -> f32 {
 pub(super) fn refit(buckets: &Buckets, start: &Arc, most_oval: f64) -> Option<Arc> {
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let radius = start.disc.radius as f32;
-    let near: Vec<GroundEdge> = buckets.near_rim(&start.disc, 0.3 * radius).copied().collect();
+    let near = buckets.ring(&start.disc, 0.3 * radius);
     let mut trial = Trial { disc: start.disc, oval: start.oval, most_oval };
     for width in [0.02, 0.0, 0.0, 0.0] {
         trial = step(&near, &trial, width)?;
@@ -209,8 +232,7 @@ fn normal_equations<const N: usize>(
 
 /// A circle after a step; none where it has gone astray.
 fn moved(trial: &Trial, disc: [f64; 3], oval: [f64; 2]) -> Option<Trial> {
-    let disc =
-        Disc { x: trial.disc.x + disc[0], y: trial.disc.y + disc[1], radius: trial.disc.radius + disc[2] };
+    let disc = Disc { x: trial.disc.x + disc[0], y: trial.disc.y + disc[1], radius: trial.disc.radius + disc[2] };
     let mut oval = [trial.oval[0] + oval[0], trial.oval[1] + oval[1]];
     let (size, most) = (oval[0].hypot(oval[1]), trial.most_oval * disc.radius);
     if size > most {
@@ -242,7 +264,11 @@ fn support(edges: &[GroundEdge], trial: &Trial) -> Arc {
         }
         let angle = (e.y - disc.y as f32).atan2(e.x - disc.x as f32).rem_euclid(std::f32::consts::TAU);
         let bin = ((angle / std::f32::consts::TAU * BINS as f32) as usize).min(BINS - 1);
-        if cosine > 0.0 { bright_outside[bin] += e.length } else { bright_inside[bin] += e.length }
+        if cosine > 0.0 {
+            bright_outside[bin] += e.length
+        } else {
+            bright_inside[bin] += e.length
+        }
         let l = f64::from(e.length);
         squares += l * f64::from(off / e.scale).powi(2);
         contrast += l * f64::from(e.contrast);

@@ -3,6 +3,9 @@
 use super::ground::GroundEdge;
 use super::votes::Disc;
 
+/// Squares along the longer side of the searched ground.
+const SQUARES: f32 = 160.0;
+
 /// Edges on the plane by square.
 pub(super) struct Buckets {
     left: f32,
@@ -17,13 +20,12 @@ pub(super) struct Buckets {
 
 impl Buckets {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "squares")]
-    /// `squares`: how many along the longer side of the searched ground; many for places, few for circles.
-    pub(super) fn new(edges: &[GroundEdge], squares: u16) -> Self {
+    pub(super) fn new(edges: &[GroundEdge]) -> Self {
         let bound = |of: fn(&GroundEdge) -> f32| {
             edges.iter().map(of).fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
         };
         let ((left, right), (near, far)) = (bound(|e| e.x), bound(|e| e.y));
-        let side = ((right - left).max(far - near) / f32::from(squares)).max(1.0);
+        let side = ((right - left).max(far - near) / SQUARES).max(1.0);
         let cells = |extent: f32| if extent.is_finite() { (extent / side) as usize + 1 } else { 1 };
         let (columns, rows) = (cells(right - left), cells(far - near));
         let square = |e: &GroundEdge| ((e.y - near) / side) as usize * columns + ((e.x - left) / side) as usize;
@@ -39,27 +41,38 @@ impl Buckets {
         Self { left, near, side, columns, rows, starts, edges: sorted }
     }
 
-    /// Edges whose distance from the disc's rim is at most `width` (mm).
+    /// Calls `take` with each edge whose distance from the disc's rim is at most `width` (mm).
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "squares")]
-    pub(super) fn near_rim<'a>(&'a self, disc: &Disc, width: f32) -> impl Iterator<Item = &'a GroundEdge> {
+    pub(super) fn near_rim(&self, disc: &Disc, width: f32, mut take: impl FnMut(&GroundEdge)) {
         let (x, y, radius) = (disc.x as f32, disc.y as f32, disc.radius as f32);
-        let reach = radius + width;
-        let index = |v: f32, most: usize| (v / self.side).max(0.0).min(most as f32) as usize;
-        let columns = index(x - reach - self.left, self.columns)..index(x + reach - self.left + self.side, self.columns);
-        let rows = index(y - reach - self.near, self.rows)..index(y + reach - self.near + self.side, self.rows);
-        let half_diagonal = 0.708 * self.side;
-        let squares = rows.flat_map(move |row| columns.clone().map(move |column| (row, column)));
-        squares
-            .filter(move |(row, column)| {
-                let dx = self.left + (*column as f32 + 0.5) * self.side - x;
-                let dy = self.near + (*row as f32 + 0.5) * self.side - y;
-                (dx.hypot(dy) - radius).abs() <= width + half_diagonal
-            })
-            .flat_map(move |(row, column)| {
-                let at = row * self.columns + column;
-                &self.edges[self.starts[at] as usize..self.starts[at + 1] as usize]
-            })
-            .filter(move |e| ((e.x - x).hypot(e.y - y) - radius).abs() <= width)
+        let (outer, inner) = (radius + width, (radius - width).max(0.0));
+        let index = |v: f32, most: usize| ((v / self.side).max(0.0) as usize).min(most);
+        let mut pass = |row: usize, from: f32, to: f32| {
+            let (first, last) =
+                (index(from - self.left, self.columns), index(to - self.left + self.side, self.columns));
+            let base = row * self.columns;
+            let range = self.starts[base + first] as usize..self.starts[base + last.max(first)] as usize;
+            for e in &self.edges[range] {
+                let (dx, dy) = (e.x - x, e.y - y);
+                let squared = dx * dx + dy * dy;
+                if squared <= outer * outer && squared >= inner * inner {
+                    take(e);
+                }
+            }
+        };
+        for row in index(y - outer - self.near, self.rows)..index(y + outer - self.near + self.side, self.rows) {
+            let low = self.near + row as f32 * self.side - y;
+            let (nearest, furthest) = ((low.max(-low - self.side)).max(0.0), low.abs().max((low + self.side).abs()));
+            let reach = (outer * outer - nearest * nearest).max(0.0).sqrt();
+            // In the middle rows the disc's inside is left out, if that saves a square.
+            let hole = (inner * inner - furthest * furthest).max(0.0).sqrt() - self.side;
+            if hole > self.side {
+                pass(row, x - reach, x - hole - self.side);
+                pass(row, x + hole, x + reach);
+            } else {
+                pass(row, x - reach, x + reach);
+            }
+        }
     }
 
     /// All edges.
@@ -67,21 +80,10 @@ impl Buckets {
         &self.edges
     }
 
-    /// Edges in the square of a place and the squares around it.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "squares")]
-    pub(super) fn around(&self, x: f32, y: f32) -> impl Iterator<Item = &GroundEdge> {
-        let index = |v: f32| (v / self.side).floor().clamp(-2.0, 1e6) as i64;
-        let (column, row) = (index(x - self.left), index(y - self.near));
-        (row - 1..=row + 1).flat_map(move |row| {
-            let columns = (column - 1).max(0)..(column + 2).min(self.columns as i64);
-            let inside = (0..self.rows as i64).contains(&row) && !columns.is_empty();
-            let range = if inside {
-                let base = row as usize * self.columns;
-                self.starts[base + columns.start as usize] as usize..self.starts[base + columns.end as usize] as usize
-            } else {
-                0..0
-            };
-            &self.edges[range]
-        })
+    /// Edges near a rim, copied.
+    pub(super) fn ring(&self, disc: &Disc, width: f32) -> Vec<GroundEdge> {
+        let mut found = Vec::new();
+        self.near_rim(disc, width, |e| found.push(*e));
+        found
     }
 }

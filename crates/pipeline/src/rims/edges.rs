@@ -75,16 +75,17 @@ impl Gradient {
                 let above = &smooth[(y - 1) * width..y * width];
                 let here = &smooth[y * width..(y + 1) * width];
                 let below = &smooth[(y + 1) * width..(y + 2) * width];
-                let row = y * width;
-                for x in 1..width - 1 {
-                    let gx = 0.5 * (here[x + 1] - here[x - 1]);
-                    let gy = 0.5 * (below[x] - above[x]);
-                    let size = gx * gx + gy * gy;
-                    if size > found.size[row + x] {
-                        found.x[row + x] = gx;
-                        found.y[row + x] = gy;
-                        found.size[row + x] = size;
-                    }
+                let inner = y * width + 1..(y + 1) * width - 1;
+                let out =
+                    found.x[inner.clone()].iter_mut().zip(&mut found.y[inner.clone()]).zip(&mut found.size[inner]);
+                let sides = here.windows(3).zip(above[1..].iter().zip(&below[1..]));
+                for (((x, y), size), (beside, (above, below))) in out.zip(sides) {
+                    let (gx, gy) = (0.5 * (beside[2] - beside[0]), 0.5 * (below - above));
+                    let squared = gx * gx + gy * gy;
+                    let larger = squared > *size;
+                    *x = if larger { gx } else { *x };
+                    *y = if larger { gy } else { *y };
+                    *size = if larger { squared } else { *size };
                 }
             }
         }

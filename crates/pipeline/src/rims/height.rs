@@ -6,7 +6,7 @@
 
 use super::arcs::Arc;
 use super::buckets::Buckets;
-use super::ground::GroundEdge;
+use super::raster::Raster;
 
 /// Height of a rim above the table.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +38,8 @@ const COMMON_FOOT: (f64, f64) = (0.62, 0.15);
 const TRIED: (f64, f64) = (0.12, 1.8);
 /// Ratios of two heights tried one after the other.
 const HEIGHT_STEP: f64 = 1.04;
+/// A foot is looked for within this many radii of the rim's centre.
+const FURTHEST: f64 = 6.0;
 /// Foot over rim radius that is tried, and its steps.
 const FOOT: (f64, f64, f64) = (0.3, 1.04, 0.04);
 /// Scaled pixels between the places that are looked at.
@@ -52,11 +54,6 @@ const MODEL: f64 = 0.08;
 const LEAST_CHANCE: f64 = 0.05;
 /// Neighbouring places are not independent: what they say counts this much.
 const INDEPENDENT: f64 = 0.5;
-/// Edges within this many scaled pixels are the foot's ...
-const NEAR_PX: f32 = 1.5;
-/// ... when they run along it within 20 degrees.
-const ALONG_COSINE: f32 = 0.94;
-
 /// The height of a bowl's rim.
 pub(super) fn of_bowl(buckets: &Buckets, rim: &Arc, camera_height_mm: f64) -> RimHeight {
     let trials = trials(buckets, rim, camera_height_mm);
@@ -84,12 +81,15 @@ struct Trial {
 fn trials(buckets: &Buckets, rim: &Arc, camera_height_mm: f64) -> Vec<Trial> {
     let away = rim.disc.x.hypot(rim.disc.y);
     let chance = rim.chance.max(LEAST_CHANCE);
+    let scale = std::f64::consts::TAU * rim.disc.radius / rim.perimeter_px;
+    // The lowest foot that is tried, and what is around it.
+    let lowest = away * (1.0 - shrink(rim, camera_height_mm, TRIED.1)) + rim.disc.radius;
+    let raster = Raster::of(buckets, [rim.disc.x, rim.disc.y], lowest.min(FURTHEST * rim.disc.radius), scale);
     let mut trials = Vec::new();
     let mut ratio = TRIED.0;
     while ratio < TRIED.1 {
-        // H = q D and D = 2 R (1 - H / c), with R the radius on Z = 0.
-        let height_mm = 2.0 * ratio * rim.disc.radius / (1.0 + 2.0 * ratio * rim.disc.radius / camera_height_mm);
-        let shrink = 1.0 - height_mm / camera_height_mm;
+        let shrink = shrink(rim, camera_height_mm, ratio);
+        let height_mm = camera_height_mm * (1.0 - shrink);
         let likely_height = -0.5 * ((ratio / COMMON.0).ln() / COMMON.1).powi(2);
         let mut foot = FOOT.0;
         while foot < FOOT.1 {
@@ -98,9 +98,9 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_height_mm: f64) -> Vec<Trial> {
                 toward: [-rim.disc.x / away.max(1e-9), -rim.disc.y / away.max(1e-9)],
                 apart: away * (1.0 - shrink),
                 radius: foot * rim.disc.radius * shrink,
-                step: STEP_PX * std::f64::consts::TAU * rim.disc.radius / rim.perimeter_px,
+                step: STEP_PX * scale,
             };
-            let seen = INDEPENDENT * outline.seen(buckets, chance);
+            let seen = INDEPENDENT * outline.seen(&raster, chance);
             let likely_foot = -0.5 * ((foot - COMMON_FOOT.0) / COMMON_FOOT.1).powi(2);
             trials.push(Trial { height_mm, log_odds: seen + likely_height + likely_foot, seen });
             foot += FOOT.2;
@@ -108,6 +108,12 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_height_mm: f64) -> Vec<Trial> {
         ratio *= HEIGHT_STEP;
     }
     trials
+}
+
+/// How much smaller the rim is than it appears on Z = 0 if its height is so much of its diameter: H = q D and
+/// D = 2 R (1 - H / c), with R the radius on Z = 0.
+fn shrink(rim: &Arc, camera_height_mm: f64, ratio: f64) -> f64 {
+    1.0 / (1.0 + 2.0 * ratio * rim.disc.radius / camera_height_mm)
 }
 
 /// The outline of a wall between a rim and a foot, on the plane Z = 0.
@@ -125,7 +131,7 @@ struct Outline<'a> {
 
 impl Outline<'_> {
     /// What its edges say: logarithm of how much likelier they are with this foot than without.
-    fn seen(&self, buckets: &Buckets, chance: f64) -> f64 {
+    fn seen(&self, raster: &Raster, chance: f64) -> f64 {
         let cosine = (self.rim.disc.radius - self.radius) / self.apart;
         if cosine >= 1.0 {
             return 0.0; // hidden behind the rim
@@ -135,13 +141,14 @@ impl Outline<'_> {
         let heading = self.toward[1].atan2(self.toward[0]);
         let center = [self.rim.disc.x + self.toward[0] * self.apart, self.rim.disc.y + self.toward[1] * self.apart];
         let mut sum = 0.0;
-        let says = |held: bool, shows: f64| if held { (shows / chance).ln() } else { ((1.0 - shows) / (1.0 - chance)).ln() };
+        let says =
+            |held: bool, shows: f64| if held { (shows / chance).ln() } else { ((1.0 - shows) / (1.0 - chance)).ln() };
         let rim = &self.rim.disc;
         // On the rim itself, edges are the rim's.
         let clear = |at: [f64; 2]| (at[0] - rim.x).hypot(at[1] - rim.y) - rim.radius > CLEAR_PX * self.step / STEP_PX;
-        let mut look = |at: [f64; 2], normal: [f64; 2], shows: f64| {
+        let mut look = |at: [f64; 2], angle: f64, shows: f64| {
             if clear(at) {
-                sum += says(has_edge(buckets, at, normal), shows);
+                sum += says(raster.has_edge(at, angle), shows);
             }
         };
         let turn = (self.step / self.radius).min(0.5);
@@ -150,7 +157,7 @@ impl Outline<'_> {
         for place in -places..=places {
             let angle = heading + f64::from(place) * turn;
             let normal = [angle.cos(), angle.sin()];
-            look([center[0] + self.radius * normal[0], center[1] + self.radius * normal[1]], normal, SHOWS.0);
+            look([center[0] + self.radius * normal[0], center[1] + self.radius * normal[1]], angle, SHOWS.0);
         }
         let length = (self.apart.powi(2) - (rim.radius - self.radius).powi(2)).sqrt();
         for side in [-1.0, 1.0] {
@@ -164,22 +171,10 @@ impl Outline<'_> {
                     let foot = center[i] + self.radius * normal[i];
                     foot + (rim - foot) * share
                 });
-                look(at, normal, SHOWS.1);
+                look(at, angle, SHOWS.1);
                 along += self.step;
             }
         }
         sum
     }
-}
-
-/// Whether an edge with this normal lies at a place on the plane.
-#[expect(clippy::cast_possible_truncation, reason = "mm")]
-fn has_edge(buckets: &Buckets, at: [f64; 2], normal: [f64; 2]) -> bool {
-    let [x, y] = at.map(|v| v as f32);
-    let [nx, ny] = normal.map(|v| v as f32);
-    buckets.around(x, y).any(|e: &GroundEdge| {
-        let (dx, dy) = (e.x - x, e.y - y);
-        let (across, along) = ((dx * nx + dy * ny).abs(), (dx * ny - dy * nx).abs());
-        across <= NEAR_PX * e.scale && along <= 1.5 * e.length && (e.nx * nx + e.ny * ny).abs() >= ALONG_COSINE
-    })
 }

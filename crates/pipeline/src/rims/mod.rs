@@ -15,12 +15,15 @@ mod edges;
 mod ground;
 mod height;
 mod outward;
+mod raster;
 mod refine;
 mod scaled;
 mod search;
 mod select;
 mod significance;
 mod sizes;
+#[cfg(test)]
+mod tests;
 mod votes;
 
 use ingest::Picture;
@@ -49,26 +52,33 @@ pub struct Rim {
     pub coverage: f64,
     /// Its height if it is a bowl's.
     pub height: RimHeight,
-    #[doc(hidden)]
-    pub debug: Vec<f64>,
+    /// Centre (world X, Y) and radius of the circle that it appears as on the plane Z = 0, in mm.
+    pub on_table_mm: ([f64; 2], f64),
 }
 
 /// Why rims cannot be looked for.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum RimError {
     /// The picture is not the camera's.
-    #[error("the picture is {found_px:?} px, but the camera's pictures are {expected_px:?}: give this picture's camera")]
+    #[error(
+        "the picture is {found_px:?} px, but the camera's pictures are {expected_px:?}: give this picture's camera"
+    )]
     Size {
         /// Width and height of the picture.
         found_px: [u32; 2],
         /// Width and height by the camera.
         expected_px: [u32; 2],
     },
+    /// The picture does not hold three bytes per pixel.
+    #[error("the picture holds {found} bytes, but its size asks for {expected}")]
+    Bytes {
+        /// Bytes of the picture.
+        found: usize,
+        /// Three per pixel.
+        expected: usize,
+    },
 }
 
-/// Squares of the ground for finding edges along circles, and at places.
-const CIRCLE_SQUARES: u16 = 96;
-const PLACE_SQUARES: u16 = 320;
 /// Plates are wider than this, and lower than this share of their diameter.
 const PLATE_MM: f64 = 170.0;
 const PLATE_HEIGHT: f64 = 0.3;
@@ -78,25 +88,23 @@ const LEAST_POINTS: usize = 12;
 /// The rims in a picture taken from a known pose, most likely first.
 ///
 /// # Errors
-/// [`RimError`] when the picture is not of the camera's size.
+/// [`RimError`] when the picture is not of the camera's size, or not all there.
 pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
     let found_px = [picture.width_px, picture.height_px];
     if found_px != view.camera().size_px() {
         return Err(RimError::Size { found_px, expected_px: view.camera().size_px() });
     }
-    let t = std::time::Instant::now();
-    let lap = |what: &str| eprint!("{what} {:.1} ms; ", t.elapsed().as_secs_f64() * 1e3);
+    let expected = 3 * picture.width_px as usize * picture.height_px as usize;
+    if picture.rgb.len() != expected {
+        return Err(RimError::Bytes { found: picture.rgb.len(), expected });
+    }
     let scaled = Scaled::of(picture);
-    lap("scaled");
-    let buckets = Buckets::new(&ground::ground_edges(view, &scaled), CIRCLE_SQUARES);
-    lap("edges");
+    let buckets = Buckets::new(&ground::ground_edges(view, &scaled));
     let rims = search::rims(view, &buckets);
-    lap("search");
-    let fine = Buckets::new(buckets.edges(), PLACE_SQUARES);
     Ok(rims
         .iter()
         .filter_map(|found| {
-            let height = height::of_bowl(&fine, &found.arc, view.pose().camera_height_mm());
+            let height = height::of_bowl(&buckets, &found.arc, view.pose().camera_height_mm());
             let points_px = refine::follow(picture, view, &found.arc, scaled.factor);
             let center_px = view.pixel_of(Point3::new(found.arc.disc.x, found.arc.disc.y, 0.0)).ok()?;
             (points_px.len() >= LEAST_POINTS).then(|| Rim {
@@ -106,7 +114,7 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
                 points_px,
                 perimeter_px: found.arc.perimeter_px * scaled.factor as f64,
                 coverage: found.evidence.coverage,
-                debug: vec![found.arc.disc.x, found.arc.disc.y, found.arc.disc.radius, found.arc.residual_px, found.arc.contrast, found.arc.chance, found.evidence.false_alarms_log10, found.evidence.steady, found.evidence.visible, found.evidence.far],
+                on_table_mm: ([found.arc.disc.x, found.arc.disc.y], found.arc.disc.radius),
                 height,
             })
         })

@@ -2,6 +2,7 @@
 
 use super::arcs::{self, Arc, BINS, Trial};
 use super::buckets::Buckets;
+use super::select::AS_STRONG;
 
 /// A rim is looked for out to this multiple of an inner edge's radius: a well or groove further in is a circle of its own.
 const FURTHEST: f64 = 1.3;
@@ -41,7 +42,8 @@ fn next_outward(buckets: &Buckets, arc: &Arc, most_oval: f64) -> Option<Arc> {
         let outer = arcs::refit(buckets, &arc.scaled(ratio(i)), most_oval)?;
         let shift = (outer.disc.x - arc.disc.x).hypot(outer.disc.y - arc.disc.y);
         let (wider, grown) = (outer.disc.radius - arc.disc.radius, outer.disc.radius / arc.disc.radius);
-        (outer.coverage >= needed && grown >= NEAREST && shift <= 1.2 * wider).then_some(outer)
+        let as_strong = outer.contrast >= AS_STRONG * arc.contrast;
+        (outer.coverage >= needed && as_strong && grown >= NEAREST && shift <= 1.2 * wider).then_some(outer)
     })
 }
 
@@ -50,8 +52,8 @@ fn next_outward(buckets: &Buckets, arc: &Arc, most_oval: f64) -> Option<Arc> {
 fn coverage_of_rings(buckets: &Buckets, arc: &Arc, most_oval: f64) -> [f64; RINGS] {
     let (trial, radius) = (Trial { disc: arc.disc, oval: arc.oval, most_oval }, arc.disc.radius as f32);
     let mut lengths = vec![[0.0_f32; BINS]; RINGS];
-    for e in buckets.near_rim(&arc.disc, (FURTHEST + 0.1 - 1.0) as f32 * radius) {
-        let Some((off, bin)) = trial.along(e) else { continue };
+    buckets.near_rim(&arc.disc, (FURTHEST + 0.1 - 1.0) as f32 * radius, |e| {
+        let Some((off, bin)) = trial.along(e) else { return };
         let ring_of = |off: f32| ((off / radius + 1.0 - NEAREST as f32) / STEP as f32).max(0.0);
         let reach = arcs::RING_PX * e.scale;
         let (first, last) = (ring_of(off - reach).ceil() as usize, ring_of(off + reach).floor() as usize);
@@ -60,7 +62,7 @@ fn coverage_of_rings(buckets: &Buckets, arc: &Arc, most_oval: f64) -> [f64; RING
                 ring[bin] += e.length;
             }
         }
-    }
+    });
     let mut coverage = [0.0; RINGS];
     for (ring, share) in coverage.iter_mut().enumerate() {
         let needed = arcs::bin_length(radius * (NEAREST + STEP * ring as f64) as f32);

@@ -14,7 +14,7 @@ const RADII_MM: [f64; 2] = [30.0, 330.0];
 /// The pose may be wrong by as much, in radians (17 mg of zero-g offset per degree).
 const POSE_ERROR_RAD: f64 = 0.03;
 /// Tableware is round within this share of its radius.
-const ROUND: f64 = 0.01;
+const ROUND: f64 = 0.02;
 /// Circles that are the same to this share of the radius are one.
 const SAME: f64 = 0.02;
 /// Circles less likely than this are not followed up, and not told in the end.

@@ -17,8 +17,12 @@ const RAISED: f64 = 0.2;
 const STANDS_IN: f64 = 0.85;
 /// An outer edge is about as likely as the inner one, this share of it at least ...
 const AS_LIKELY: f64 = 0.8;
-/// ... and no larger than this multiple.
+/// ... its edges are as strong and cover as much of it, these shares at least (a shadow's are soft) ...
+pub(super) const AS_STRONG: f64 = 0.35;
+const AS_COVERED: f64 = 0.6;
+/// ... and no larger than this multiple for the thickness of a rim, and this one for a rim around a well or floor.
 const THICKEST: f64 = 1.3;
+const WIDEST: f64 = 2.4;
 
 /// Keeps one circle of each container, the likeliest first: of circles about one centre that are about as likely, the
 /// largest. Those with less than the least confidence are none.
@@ -30,18 +34,24 @@ pub(super) fn one_per_container(mut all: Vec<Scored>, least_confidence: f64) -> 
         if kept.iter().any(|k| !are_two(&k.arc, &s.arc)) {
             continue;
         }
-        let around = all.iter().filter(|o| o.confidence >= AS_LIKELY * s.confidence && is_around(&o.arc, &s.arc));
-        let largest = around.max_by(|a, b| a.arc.disc.radius.total_cmp(&b.arc.disc.radius)).unwrap_or(s);
+        let is_like = |o: &&Scored| o.confidence >= AS_LIKELY * s.confidence && is_around(&o.arc, &s.arc);
+        let around: Vec<&Scored> = all.iter().filter(is_like).chain([s]).collect();
+        let strongest = around.iter().map(|o| o.arc.contrast).fold(0.0, f64::max);
+        let as_strong = around.into_iter().filter(|o| o.arc.contrast >= AS_STRONG * strongest);
+        let largest = as_strong.max_by(|a, b| a.arc.disc.radius.total_cmp(&b.arc.disc.radius)).unwrap_or(s);
         kept.push(largest.clone());
     }
     kept
 }
 
-/// Whether a circle is the outer edge of what another one is the inner edge of.
+/// Whether a circle is the outer edge of what another one is the inner edge or the well of.
 fn is_around(outer: &Arc, inner: &Arc) -> bool {
     let apart = (outer.disc.x - inner.disc.x).hypot(outer.disc.y - inner.disc.y);
     let wider = outer.disc.radius - inner.disc.radius;
-    wider > 0.0 && outer.disc.radius < THICKEST * inner.disc.radius && apart <= 1.2 * wider
+    let edge_of_rim = outer.disc.radius < THICKEST * inner.disc.radius && apart <= 1.2 * wider;
+    let rim_of_well = outer.disc.radius < WIDEST * inner.disc.radius && apart <= 0.5 * wider;
+    let as_covered = outer.coverage >= AS_COVERED * inner.coverage;
+    wider > 0.0 && (edge_of_rim || rim_of_well) && as_covered && !are_two(outer, inner)
 }
 
 /// Whether two circles can be the rims of two containers.

@@ -63,9 +63,9 @@ impl Evidence {
     /// From 0 to 1: a logistic function of what speaks for it.
     pub(super) fn confidence(&self, arc: &Arc) -> f64 {
         let score = 12.0 * (self.coverage * self.visible.sqrt() - 0.58)
-            + 0.12 * ((-self.false_alarms_log10).min(60.0) - 16.0)
+            + 0.12 * ((-self.false_alarms_log10).min(60.0) - 18.0)
             + 3.0 * (self.steady - 0.8)
-            - 4.0 * (arc.residual_px - 0.4)
+            - 8.0 * (arc.residual_px - 0.45).max(0.0)
             - 8.0 * (0.4 - self.far).max(0.0)
             - 10.0 * (0.2 - self.longest).max(0.0);
         1.0 / (1.0 + (-score).exp())

@@ -58,10 +58,8 @@ impl Rim {
 
 impl RimHeight {
     fn estimate(&self) -> Estimate {
-        let measured =
-            Measured { quantity: Quantity::Height, predicted_mm: self.mm, plane_z_mm: 0.0, marks: 1 };
-        let sigma =
-            SizeSigma { pitch_mm: 0.0, roll_mm: 0.0, range_mm: 0.0, marks_mm: self.sigma_mm, camera_mm: 0.0 };
+        let measured = Measured { quantity: Quantity::Height, predicted_mm: self.mm, plane_z_mm: 0.0, marks: 1 };
+        let sigma = SizeSigma { pitch_mm: 0.0, roll_mm: 0.0, range_mm: 0.0, marks_mm: self.sigma_mm, camera_mm: 0.0 };
         Estimate { measured, sigma: Some(sigma) }
     }
 }

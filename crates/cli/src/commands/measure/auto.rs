@@ -15,7 +15,9 @@ use crate::exit::{Failure, Outcome};
 /// Finds, measures and prints.
 pub fn run(args: &MeasureArgs, view: &View, bytes: &[u8]) -> Result<Outcome, Failure> {
     if args.kind == Some(Kind::Box) || args.shape.is_some_and(|shape| shape != Shape::Circle) {
-        return Err(Failure::Usage(anyhow!("--auto finds round rims only: mark boxes and rectangles, and give --marks")));
+        return Err(Failure::Usage(anyhow!(
+            "--auto finds round rims only: mark boxes and rectangles, and give --marks"
+        )));
     }
     if !(0.0..=1.0).contains(&args.min_confidence) {
         return Err(Failure::Usage(anyhow!("--min-confidence: expected 0 to 1")));

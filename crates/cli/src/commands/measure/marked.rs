@@ -15,13 +15,7 @@ use crate::args::MeasureArgs;
 use crate::exit::{Failure, Outcome};
 
 /// Measures and prints.
-pub fn run(
-    args: &MeasureArgs,
-    view: &View,
-    picture: &[u8],
-    marks_file: &Path,
-    kind: Kind,
-) -> Result<Outcome, Failure> {
+pub fn run(args: &MeasureArgs, view: &View, picture: &[u8], marks_file: &Path, kind: Kind) -> Result<Outcome, Failure> {
     let bytes = labelme::read_bytes(marks_file).map_err(Failure::usage)?;
     let marks = labelme::parse(&bytes, marks_file, view.camera().size_px())?;
     if marks.objects.is_empty() && marks.refused.is_empty() {
