@@ -79,8 +79,9 @@ pub enum RimError {
     },
 }
 
-/// Plates are wider than this, and lower than this share of their diameter.
-const PLATE_MM: f64 = 170.0;
+/// Plates are wider than this (the second: nothing else is), and lower than this share of their diameter.
+const PLATE_MM: f64 = 180.0;
+const ALWAYS_PLATE_MM: f64 = 220.0;
 const PLATE_HEIGHT: f64 = 0.3;
 /// Fewer points do not hold a rim.
 const LEAST_POINTS: usize = 12;
@@ -121,11 +122,12 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
         .collect())
 }
 
-/// What it looks like: a plate is wide, and shows no wall or a low one.
+/// What it looks like: a plate is very wide, or wide without a high wall below its rim (a shadow may look like a low one).
 fn kind(arc: &Arc, height: RimHeight, view: &View) -> Kind {
-    let diameter_mm = 2.0 * arc.disc.radius * (1.0 - height.mm / view.pose().camera_height_mm());
+    let on_table_mm = 2.0 * arc.disc.radius;
+    let diameter_mm = on_table_mm * (1.0 - height.mm / view.pose().camera_height_mm());
     let shows_a_wall = height.source == HeightSource::Foot && height.mm > PLATE_HEIGHT * diameter_mm;
-    if 2.0 * arc.disc.radius >= PLATE_MM && !shows_a_wall { Kind::Plate } else { Kind::Bowl }
+    if on_table_mm >= ALWAYS_PLATE_MM || (on_table_mm >= PLATE_MM && !shows_a_wall) { Kind::Plate } else { Kind::Bowl }
 }
 
 impl Rim {

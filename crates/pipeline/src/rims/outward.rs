@@ -2,7 +2,7 @@
 
 use super::arcs::{self, Arc, BINS, Trial};
 use super::buckets::Buckets;
-use super::select::AS_STRONG;
+use super::select::is_shadow;
 
 /// A rim is looked for out to this multiple of an inner edge's radius: a well or groove further in is a circle of its own.
 const FURTHEST: f64 = 1.3;
@@ -42,8 +42,8 @@ fn next_outward(buckets: &Buckets, arc: &Arc, most_oval: f64) -> Option<Arc> {
         let outer = arcs::refit(buckets, &arc.scaled(ratio(i)), most_oval)?;
         let shift = (outer.disc.x - arc.disc.x).hypot(outer.disc.y - arc.disc.y);
         let (wider, grown) = (outer.disc.radius - arc.disc.radius, outer.disc.radius / arc.disc.radius);
-        let as_strong = outer.contrast >= AS_STRONG * arc.contrast;
-        (outer.coverage >= needed && as_strong && grown >= NEAREST && shift <= 1.2 * wider).then_some(outer)
+        (outer.coverage >= needed && !is_shadow(&outer, arc) && grown >= NEAREST && shift <= 1.2 * wider)
+            .then_some(outer)
     })
 }
 

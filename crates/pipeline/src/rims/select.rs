@@ -17,9 +17,10 @@ const RAISED: f64 = 0.2;
 const STANDS_IN: f64 = 0.85;
 /// An outer edge is about as likely as the inner one, this share of it at least ...
 const AS_LIKELY: f64 = 0.8;
-/// ... its edges are as strong and cover as much of it, these shares at least (a shadow's are soft) ...
-pub(super) const AS_STRONG: f64 = 0.35;
+/// ... its edges cover as much of it, this share at least ...
 const AS_COVERED: f64 = 0.6;
+/// ... and are as strong, this share at least: a shadow's are soft ...
+const AS_STRONG: f64 = 0.45;
 /// ... and no larger than this multiple for the thickness of a rim, and this one for a rim around a well or floor.
 const THICKEST: f64 = 1.3;
 const WIDEST: f64 = 2.4;
@@ -34,14 +35,25 @@ pub(super) fn one_per_container(mut all: Vec<Scored>, least_confidence: f64) -> 
         if kept.iter().any(|k| !are_two(&k.arc, &s.arc)) {
             continue;
         }
-        let is_like = |o: &&Scored| o.confidence >= AS_LIKELY * s.confidence && is_around(&o.arc, &s.arc);
-        let around: Vec<&Scored> = all.iter().filter(is_like).chain([s]).collect();
-        let strongest = around.iter().map(|o| o.arc.contrast).fold(0.0, f64::max);
-        let as_strong = around.into_iter().filter(|o| o.arc.contrast >= AS_STRONG * strongest);
-        let largest = as_strong.max_by(|a, b| a.arc.disc.radius.total_cmp(&b.arc.disc.radius)).unwrap_or(s);
-        kept.push(largest.clone());
+        let is_like = |o: &&Scored| {
+            o.confidence >= AS_LIKELY * s.confidence && (is_around(&o.arc, &s.arc) || is_around(&s.arc, &o.arc))
+        };
+        let mut group: Vec<&Scored> = all.iter().filter(is_like).chain([s]).collect();
+        group.sort_by(|a, b| b.arc.disc.radius.total_cmp(&a.arc.disc.radius));
+        let largest = group.iter().find(|o| !group.iter().any(|p| is_shadow(&o.arc, &p.arc))).unwrap_or(&s);
+        if kept.iter().all(|k| are_two(&k.arc, &largest.arc)) {
+            kept.push((*largest).clone());
+        }
     }
     kept
+}
+
+/// Whether the outer circle is a shadow of the inner one: just outside it, much weaker, and in no way better.
+pub(super) fn is_shadow(outer: &Arc, inner: &Arc) -> bool {
+    let ratio = outer.disc.radius / inner.disc.radius;
+    let is_weak = outer.contrast < AS_STRONG * inner.contrast;
+    let is_worse = outer.coverage <= inner.coverage + 0.1 && outer.residual_px >= inner.residual_px;
+    ratio > 1.01 && ratio < THICKEST && is_weak && is_worse
 }
 
 /// Whether a circle is the outer edge of what another one is the inner edge or the well of.
