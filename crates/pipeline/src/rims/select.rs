@@ -20,7 +20,7 @@ const AS_LIKELY: f64 = 0.8;
 /// ... its edges cover as much of it, this share at least ...
 const AS_COVERED: f64 = 0.6;
 /// ... and are as strong, this share at least: a shadow's are soft ...
-const AS_STRONG: f64 = 0.45;
+const AS_STRONG: f64 = 0.55;
 /// ... and no larger than this multiple for the thickness of a rim, and this one for a rim around a well or floor.
 const THICKEST: f64 = 1.3;
 const WIDEST: f64 = 2.4;
