@@ -16,7 +16,7 @@ const RAISED: f64 = 0.2;
 /// ... if it is smaller than this share of it.
 const STANDS_IN: f64 = 0.85;
 /// An outer edge is about as likely as the inner one, this share of it at least ...
-const AS_LIKELY: f64 = 0.8;
+const AS_LIKELY: f64 = 0.7;
 /// ... its edges cover as much of it, this share at least ...
 const AS_COVERED: f64 = 0.6;
 /// ... and are as strong, this share at least: a shadow's are soft ...
@@ -42,7 +42,8 @@ pub(super) fn one_per_container(mut all: Vec<Scored>, least_confidence: f64) -> 
         group.sort_by(|a, b| b.arc.disc.radius.total_cmp(&a.arc.disc.radius));
         let largest = group.iter().find(|o| !group.iter().any(|p| is_shadow(&o.arc, &p.arc))).unwrap_or(&s);
         if kept.iter().all(|k| are_two(&k.arc, &largest.arc)) {
-            kept.push((*largest).clone());
+            // The likeliest edge says how sure it is that there is a container.
+            kept.push(Scored { confidence: s.confidence, ..(*largest).clone() });
         }
     }
     kept
