@@ -44,7 +44,10 @@ impl Picture {
     /// The picture as the bytes of a PNG file.
     ///
     /// # Errors
-    /// [`PictureError`] when the bytes do not fill width and height.
+    /// [`PictureError`] when there is nothing to write (no pixels).
+    ///
+    /// # Panics
+    /// When the bytes do not fill width and height.
     pub fn to_png(&self) -> Result<Vec<u8>, PictureError> {
         let mut bytes = Vec::new();
         let encoder = image::codecs::png::PngEncoder::new(&mut bytes);
@@ -56,5 +59,24 @@ impl Picture {
             image::ExtendedColorType::Rgb8,
         )?;
         Ok(bytes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+
+    #[test]
+    fn a_picture_survives_its_way_through_a_file() {
+        let rgb = (0..3 * 20 * 10).map(|i| (i % 256) as u8).collect();
+        let picture = Picture { width_px: 20, height_px: 10, rgb };
+        assert_eq!(Picture::decode(&picture.to_png().unwrap()).unwrap(), picture);
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused() {
+        assert!(Picture::decode(b"not a picture").is_err());
+        assert!(Picture::decode(&[]).is_err());
     }
 }

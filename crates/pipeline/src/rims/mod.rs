@@ -80,7 +80,7 @@ pub enum RimError {
 }
 
 /// Plates are wider than this (the second: nothing else is), and lower than this share of their diameter.
-const PLATE_MM: f64 = 180.0;
+const PLATE_MM: f64 = 190.0;
 const ALWAYS_PLATE_MM: f64 = 220.0;
 const PLATE_HEIGHT: f64 = 0.3;
 /// Fewer points do not hold a rim.
