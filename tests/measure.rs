@@ -209,3 +209,83 @@ fn one_card_to_one_mcap_file() {
         stderr(&nowhere)
     );
 }
+
+/// A white disc of 200 mm on a dark table, painted where the camera shows it.
+fn paint_disc(file: &str) {
+    use nalgebra::Point2;
+    let lens = model::LensModel::Division(model::lens::Division { lambda: -0.2 });
+    let camera = model::Camera::new([1280, 960], [900.0, 900.0], [640.0, 480.0], 0.0, lens).unwrap();
+    let pose = model::Pose::new(52_f64.to_radians(), (-7.5_f64).to_radians(), 600.0).unwrap();
+    let view = model::View::new(camera, pose);
+    let center = view.on_plane(Point2::new(700.0, 450.0), 0.0).unwrap();
+    let picture = image::RgbImage::from_fn(1280, 960, |x, y| {
+        let place = view.on_plane(Point2::new(f64::from(x), f64::from(y)), 0.0);
+        let inside = place.is_ok_and(|place| (place - center).norm() < 100.0);
+        image::Rgb(if inside { [220, 220, 215] } else { [70, 60, 50] })
+    });
+    picture.save(file).unwrap();
+}
+
+#[test]
+fn a_rim_is_found_without_marks() {
+    let scene = Scene::new();
+    paint_disc(&scene.path("picture.png"));
+    let (camera, picture, overlay) = (scene.path("cam.toml"), scene.path("picture.png"), scene.path("overlay.png"));
+    let found = |more: &[&str]| run([&["measure", &picture, "--camera", &camera, "--auto"], &POSE[..], more].concat());
+    let output = found(&["--kind=plate", "--json", "--overlay", &overlay]);
+    assert_exit(&output, 0);
+    let rows: Vec<Value> = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(rows.len(), 2, "one diameter by each method");
+    for row in &rows {
+        assert_eq!(
+            (&row["object"], &row["kind"], &row["quantity"]),
+            (&"auto-1".into(), &"plate".into(), &"diameter".into())
+        );
+        assert!(row["confidence"].as_f64().unwrap() > 0.9);
+        assert!(row["rim_px"].as_array().unwrap().len() >= 24 && row["center_px"].as_array().unwrap().len() == 2);
+    }
+    let diameter_mm = rows.iter().find(|row| row["method"] == "ray").unwrap()["predicted_mm"].as_f64().unwrap();
+    assert!((diameter_mm - 200.0).abs() < 0.6, "{diameter_mm} mm");
+    let drawn = image::open(&overlay).unwrap().to_rgb8();
+    assert_eq!(drawn.dimensions(), (1280, 960));
+    assert_ne!(drawn, image::open(&picture).unwrap().to_rgb8());
+
+    // A bowl of unknown height is smaller, for its rim is nearer, and less certain.
+    let rows: Vec<Value> = serde_json::from_str(&stdout(&found(&["--kind=bowl", "--json"]))).unwrap();
+    let of = |quantity: &str| rows.iter().find(|row| row["quantity"] == quantity).unwrap();
+    assert!(of("height")["predicted_mm"].as_f64().unwrap() > 0.0);
+    assert!(of("diameter")["predicted_mm"].as_f64().unwrap() < 190.0);
+    assert!(stdout(&found(&[])).contains("confidence"), "as text");
+}
+
+#[test]
+fn a_picture_without_a_rim_gives_an_empty_list() {
+    let scene = Scene::new();
+    let (camera, picture) = (scene.path("cam.toml"), scene.path("picture.png"));
+    let measure = |more: &[&str]| run([&["measure", &picture, "--camera", &camera], &POSE[..], more].concat());
+    let output = measure(&["--auto", "--json"]);
+    assert_exit(&output, 0);
+    assert_eq!(stdout(&output).trim(), "[]");
+    assert!(stderr(&output).contains("no rim"));
+    for wrong in [
+        &["--auto", "--marks=marks.json"][..],
+        &["--auto", "--shape=square"],
+        &["--auto", "--kind=box"],
+        &["--auto", "--min-confidence=2"],
+        &["--kind=plate"],
+        &[],
+    ] {
+        assert_exit(&measure(wrong), 2);
+    }
+}
+
+#[test]
+fn marks_are_drawn_as_well() {
+    let scene = Scene::new();
+    let overlay = scene.path("overlay.png");
+    let rim = scene.pixels(0.0, &circle(90.0, 370.0));
+    let output = scene.measure(vec![outline("plate/rim", &rim)], &["--kind=plate", "--overlay", &overlay]);
+    assert_exit(&output, 0);
+    let drawn = image::open(&overlay).unwrap().to_rgb8();
+    assert!(drawn.pixels().any(|pixel| pixel.0 == [0, 255, 0]) && drawn.pixels().any(|pixel| pixel.0 == [255, 255, 0]));
+}

@@ -4,6 +4,7 @@
 //! docs/accuracy.md tells where each comes from and what these tests measured. Poses are given (they stand in for the
 //! sensors), marks are corner and edge points found by other programs.
 
+mod auto;
 mod boards;
 mod discs;
 mod rims;

@@ -5,8 +5,17 @@ use serde_json::Value;
 use super::{Photo, camera_file, cases, number, point, summary};
 use crate::support::{outline, real_data};
 
-/// A photograph with one marked rim, its reference diameter, and whether that is a ruler's.
-fn photos(set: &str) -> Option<Vec<(Photo, f64, bool)>> {
+/// A photograph with one marked rim.
+pub struct Labelled {
+    pub photo: Photo,
+    pub rim_px: Vec<[f64; 2]>,
+    pub reference_mm: f64,
+    /// Whether the reference is a ruler's.
+    pub by_ruler: bool,
+}
+
+/// The marked rims of a set.
+pub fn labelled(set: &str) -> Option<Vec<Labelled>> {
     let folder = real_data(set)?;
     let cases = cases(folder.join("cases.json"));
     let objects = cases["objects"].as_array().unwrap();
@@ -28,18 +37,19 @@ fn photos(set: &str) -> Option<Vec<(Photo, f64, bool)>> {
         };
         let by_ruler = object["true_diameter_mm"].as_f64();
         let reference = by_ruler.or_else(|| object["reference_diameter_mm_NOT_INDEPENDENT"].as_f64());
-        (photo, reference.or_else(|| object["measured_mm"].as_f64()).unwrap(), by_ruler.is_some())
+        let reference_mm = reference.or_else(|| object["measured_mm"].as_f64()).unwrap();
+        Labelled { photo, rim_px: rim, reference_mm, by_ruler: by_ruler.is_some() }
     };
     Some(objects.iter().map(photo).collect())
 }
 
 #[test]
 fn rims_in_real_scenes_agree_within_1_pct() {
-    let (Some(one), Some(other)) = (photos("graspnet6dof_realsense"), photos("uois_realsense")) else { return };
+    let (Some(one), Some(other)) = (labelled("graspnet6dof_realsense"), labelled("uois_realsense")) else { return };
     let errors: Vec<(f64, bool)> = one
         .iter()
         .chain(&other)
-        .map(|(photo, reference_mm, by_ruler)| (100.0 * (photo.measure()[0].2 / reference_mm - 1.0), *by_ruler))
+        .map(|one| (100.0 * (one.photo.measure()[0].2 / one.reference_mm - 1.0), one.by_ruler))
         .collect();
     let all: Vec<f64> = errors.iter().map(|(error, _)| *error).collect();
     let by_ruler: Vec<f64> = errors.iter().filter(|(_, by_ruler)| *by_ruler).map(|(error, _)| *error).collect();

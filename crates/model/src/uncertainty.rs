@@ -172,6 +172,13 @@ pub struct SizeSigma {
 }
 
 impl SizeSigma {
+    /// With another part from the marks, which is independent of the others.
+    #[must_use]
+    pub fn with_marks(self, marks_mm: f64) -> Self {
+        let others = (self.total_mm.powi(2) - self.marks_mm.powi(2)).max(0.0);
+        Self { marks_mm, total_mm: (others + marks_mm.powi(2)).sqrt(), ..self }
+    }
+
     /// From derivatives by the sources, their covariance, the variances that noise of pitch, tilt and range gives, and the
     /// marks' part. With a learned covariance the parts are correlated, and the total is not their sum in quadrature.
     pub(crate) fn of_parts(

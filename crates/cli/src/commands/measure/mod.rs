@@ -1,0 +1,52 @@
+//! `measure`: sizes of what is marked, or found, in one picture.
+
+mod auto;
+mod marked;
+mod overlay;
+mod size;
+
+use std::fs::File;
+use std::io::Read;
+
+use anyhow::{Context, anyhow};
+use model::View;
+
+use super::view;
+use crate::args::MeasureArgs;
+use crate::exit::{Failure, Outcome};
+
+/// More of a picture is not read to find its size.
+const LARGEST_PICTURE_BYTES: u64 = 64 << 20;
+
+/// Measures and prints.
+pub fn run(args: &MeasureArgs) -> Result<Outcome, Failure> {
+    let view = view::from_args(&args.pose)?;
+    if args.rim_height.is_some_and(|mm| !(mm.is_finite() && mm >= 0.0)) {
+        return Err(Failure::Usage(anyhow!("--rim-height: expected zero or a positive number of mm")));
+    }
+    let picture = read_picture(args, &view)?;
+    match (&args.marks, args.kind) {
+        (Some(marks), Some(kind)) => marked::run(args, &view, &picture, marks, kind),
+        _ => auto::run(args, &view, &picture),
+    }
+}
+
+/// The bytes of the picture. It must be the camera's: a scaled copy would be measured wrongly without a word.
+fn read_picture(args: &MeasureArgs, view: &View) -> Result<Vec<u8>, Failure> {
+    let [width, height] = view.camera().size_px();
+    let mut bytes = Vec::new();
+    File::open(&args.image)
+        .and_then(|file| file.take(LARGEST_PICTURE_BYTES).read_to_end(&mut bytes))
+        .with_context(|| format!("cannot read the picture {}", args.image.display()))?;
+    let header =
+        ::ingest::parse::image_header::read(&bytes).with_context(|| format!("picture {}", args.image.display()))?;
+    if [header.width_px, header.height_px] == [width, height] {
+        return Ok(bytes);
+    }
+    Err(Failure::Usage(anyhow!(
+        "the picture is {} x {} px, but the camera file says {width} x {height}: give the camera file of this picture: {}",
+        header.width_px,
+        header.height_px,
+        args.image.display()
+    )))
+}

@@ -1,0 +1,68 @@
+//! `measure --overlay`: what was measured, drawn on the picture.
+
+use anyhow::Context;
+use ingest::Picture;
+use model::{Container, Kind, Method, ObjectMarks, View};
+use pipeline::overlay::{Drawn, draw};
+use pipeline::rims::Rim;
+
+use super::size::Size;
+use crate::args::MeasureArgs;
+use crate::exit::Failure;
+
+/// Draws people's marks and their sizes, if an overlay is asked for.
+pub fn of_marked(
+    args: &MeasureArgs,
+    view: &View,
+    bytes: &[u8],
+    container: &Container,
+    objects: &[ObjectMarks],
+    sizes: &[Size],
+) -> Result<(), Failure> {
+    if args.overlay.is_none() {
+        return Ok(());
+    }
+    let picture = Picture::decode(bytes).with_context(|| format!("picture {}", args.image.display()))?;
+    let drawn: Vec<Drawn> = objects
+        .iter()
+        .map(|marks| {
+            let of_object: Vec<&Size> = sizes.iter().filter(|size| size.object == marks.object).collect();
+            let known = container.rim_height_mm.or((container.kind == Kind::Plate).then_some(0.0));
+            let on_rim = of_object.iter().filter(|size| size.method == Method::Ray).filter_map(|size| size.plane_z_mm);
+            Drawn {
+                marks: marks.clone(),
+                plane_z_mm: known.unwrap_or_else(|| on_rim.fold(0.0, f64::max)),
+                text: lines(&marks.object, None, of_object),
+            }
+        })
+        .collect();
+    write(args, view, picture, &drawn)
+}
+
+/// What is drawn of a rim that was found.
+pub fn of_rim(rim: &Rim, container: &Container, object: &str, sizes: &[Size]) -> Drawn {
+    Drawn {
+        marks: rim.marks(object),
+        plane_z_mm: rim.height_as(container).mm,
+        text: lines(object, Some(rim.confidence), sizes),
+    }
+}
+
+fn lines<'a>(object: &str, confidence: Option<f64>, sizes: impl IntoIterator<Item = &'a Size>) -> Vec<String> {
+    let head = confidence.map_or(object.to_owned(), |confidence| format!("{object} {confidence:.2}"));
+    let by_ray = sizes.into_iter().filter(|size| size.method == Method::Ray);
+    let told = by_ray.filter_map(|size| {
+        let sigma = size.sigma_mm.map_or(String::new(), |mm| format!(" +- {mm:.1}"));
+        Some(format!("{} {:.1}{sigma} mm", size.quantity, size.predicted_mm?))
+    });
+    std::iter::once(head).chain(told).collect()
+}
+
+/// Writes the overlay, if one is asked for.
+pub fn write(args: &MeasureArgs, view: &View, mut picture: Picture, drawn: &[Drawn]) -> Result<(), Failure> {
+    let Some(file) = &args.overlay else { return Ok(()) };
+    draw(&mut picture, view, drawn);
+    let png = picture.to_png().context("overlay")?;
+    std::fs::write(file, png).with_context(|| format!("cannot write the overlay {}", file.display()))?;
+    Ok(())
+}

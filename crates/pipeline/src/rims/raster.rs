@@ -1,0 +1,96 @@
+//! Edges drawn into a grid around one rim: whether an edge with some normal lies at a place is then one look.
+
+use super::buckets::Buckets;
+use super::ground::GroundEdge;
+use super::votes::Disc;
+
+/// An edge answers for places within this many scaled pixels across it ...
+const ACROSS_PX: f32 = 1.5;
+/// ... and this multiple of its length along it ...
+const ALONG: f32 = 1.5;
+/// ... that ask for a normal within 20 degrees of its own, to either side.
+const WITHIN_RAD: f32 = 0.35;
+/// Directions that are told apart in half a turn.
+const SECTORS: u32 = 16;
+/// Cells per scaled pixel of the rim.
+const CELLS_PER_PX: f64 = 1.5;
+/// Cells along a side, at most.
+const MOST_CELLS: f64 = 1200.0;
+
+/// Which normals edges have, by place.
+pub(super) struct Raster {
+    left: f32,
+    near: f32,
+    cell: f32,
+    columns: usize,
+    /// One bit per sector of directions.
+    sectors: Vec<u16>,
+}
+
+impl Raster {
+    /// The edges within a square about a circle, that reaches as far as `reach` (mm) from its centre. `scale`: mm per scaled
+    /// pixel.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]
+    pub(super) fn of(buckets: &Buckets, center: [f64; 2], reach: f64, scale: f64) -> Self {
+        let cell = (scale / CELLS_PER_PX).max(2.0 * reach / MOST_CELLS);
+        let columns = (2.0 * reach / cell) as usize + 1;
+        let mut raster = Self {
+            left: (center[0] - reach) as f32,
+            near: (center[1] - reach) as f32,
+            cell: cell as f32,
+            columns,
+            sectors: vec![0; columns * columns],
+        };
+        // All edges of the disc, as those near the rim of one half its size.
+        let disc = Disc { x: center[0], y: center[1], radius: 0.75 * reach };
+        buckets.near_rim(&disc, 0.76 * reach as f32, |e| raster.draw(e));
+        raster
+    }
+
+    /// Draws an edge.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "cells")]
+    fn draw(&mut self, e: &GroundEdge) {
+        let bits = sectors_around(e.ny.atan2(e.nx));
+        let (across, along) = (ACROSS_PX * e.scale, ALONG * e.length);
+        let half = ((across + along) / self.cell) as i64 + 1;
+        let (column, row) = self.cell_of(e.x, e.y);
+        let most = self.columns as i64;
+        for r in (row - half).max(0)..(row + half + 1).min(most) {
+            for c in (column - half).max(0)..(column + half + 1).min(most) {
+                let dx = self.left + (c as f32 + 0.5) * self.cell - e.x;
+                let dy = self.near + (r as f32 + 0.5) * self.cell - e.y;
+                if (dx * e.nx + dy * e.ny).abs() <= across && (dx * e.ny - dy * e.nx).abs() <= along {
+                    self.sectors[r as usize * self.columns + c as usize] |= bits;
+                }
+            }
+        }
+    }
+
+    /// Whether an edge with this normal (to either side) lies at a place.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]
+    pub(super) fn has_edge(&self, at: [f64; 2], normal_rad: f64) -> bool {
+        let (column, row) = self.cell_of(at[0] as f32, at[1] as f32);
+        let inside = |i: i64| (0..self.columns as i64).contains(&i);
+        inside(column)
+            && inside(row)
+            && self.sectors[row as usize * self.columns + column as usize] & (1 << sector(normal_rad as f32)) != 0
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "cells")]
+    fn cell_of(&self, x: f32, y: f32) -> (i64, i64) {
+        (((x - self.left) / self.cell).floor() as i64, ((y - self.near) / self.cell).floor() as i64)
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "sectors")]
+fn sector(angle: f32) -> u32 {
+    ((angle.rem_euclid(std::f32::consts::PI) / std::f32::consts::PI * SECTORS as f32) as u32).min(SECTORS - 1)
+}
+
+fn sectors_around(angle: f32) -> u16 {
+    let mut bits = 0;
+    for i in -2_i8..=2 {
+        bits |= 1 << sector(angle + f32::from(i) * 0.5 * WITHIN_RAD);
+    }
+    bits
+}

@@ -1,0 +1,105 @@
+//! A rim followed through the full picture.
+
+use ingest::Picture;
+use model::View;
+use nalgebra::{Point2, Point3, Vector2};
+
+use super::arcs::{Arc, BINS};
+
+/// Pixels between places where the rim is looked for, and how many there are at least and at most.
+const SPACING_PX: f64 = 4.0;
+const PLACES: (f64, f64) = (48.0, 96.0);
+/// The edge lies within this many scaled pixels of the fitted circle ...
+const REACH_PX: f64 = 1.2;
+/// ... and has this share of the median edge's strength.
+const LEAST_STRENGTH: f64 = 0.3;
+/// Places further from the others than this many deviations belong to something else.
+const OUTLIER: f64 = 3.0;
+/// Samples per pixel of a profile.
+const SAMPLES: f64 = 2.0;
+
+/// A point of the rim: where it was predicted, along which normal, and how far from there it is.
+struct Found {
+    point_px: Point2<f64>,
+    off_px: f64,
+    strength: f64,
+}
+
+/// Points of the rim in the full picture, in order, where it has an edge.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "places")]
+pub(super) fn follow(picture: &Picture, view: &View, arc: &Arc, factor: usize) -> Vec<Point2<f64>> {
+    let perimeter_px = arc.perimeter_px * factor as f64;
+    let places = (perimeter_px / SPACING_PX).clamp(PLACES.0, PLACES.1) as usize;
+    let found: Vec<Found> = (0..places)
+        .map(|i| i as f64 / places as f64)
+        .filter(|turn| arc.bins[((turn * BINS as f64) as usize).min(BINS - 1)] != 0)
+        .filter_map(|turn| across(picture, view, arc, turn * std::f64::consts::TAU, REACH_PX * factor as f64))
+        .collect();
+    let Some(strength) = middle(found.iter().map(|f| f.strength)) else { return Vec::new() };
+    let found: Vec<Found> = found.into_iter().filter(|f| f.strength >= LEAST_STRENGTH * strength).collect();
+    let Some(off) = middle(found.iter().map(|f| f.off_px)) else { return Vec::new() };
+    // 1.48: standard deviation over median absolute deviation of a normal distribution.
+    let spread = 1.48 * middle(found.iter().map(|f| (f.off_px - off).abs())).unwrap_or(0.0);
+    let limit = OUTLIER * spread.max(0.1);
+    found.into_iter().filter(|f| (f.off_px - off).abs() <= limit).map(|f| f.point_px).collect()
+}
+
+fn middle(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.collect();
+    let half = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(half, f64::total_cmp).1)
+}
+
+/// The strongest edge across the rim at one angle.
+fn across(picture: &Picture, view: &View, arc: &Arc, angle: f64, reach_px: f64) -> Option<Found> {
+    let pixel = |angle: f64| {
+        let [x, y] = arc.at(angle);
+        view.pixel_of(Point3::new(x, y, 0.0)).ok()
+    };
+    let here = pixel(angle)?;
+    let along = (pixel(angle + 0.01)? - pixel(angle - 0.01)?).try_normalize(1e-9)?;
+    let normal = Vector2::new(-along.y, along.x);
+    #[expect(clippy::cast_possible_truncation, reason = "a few pixels")]
+    let half = (reach_px * SAMPLES).ceil() as i32 + 1;
+    let sample = |i: i32| colour(picture, here + normal * (f64::from(i) / SAMPLES));
+    // Change over two pixels, of the colour that changes most; what is near the prediction counts more.
+    let changes: Vec<f64> = (-half..=half)
+        .map(|i| {
+            let (a, b) = (sample(i - 2)?, sample(i + 2)?);
+            Some(a.iter().zip(b).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max))
+        })
+        .collect::<Option<_>>()?;
+    let nearness = |i: usize| {
+        #[expect(clippy::cast_precision_loss, reason = "a few pixels")]
+        let off = (i as f64 - f64::from(half)) / f64::from(half + 1);
+        1.0 - 0.7 * off * off
+    };
+    let best = (1..changes.len() - 1)
+        .filter(|i| changes[*i] > changes[i - 1] && changes[*i] >= changes[i + 1])
+        .max_by(|a, b| (changes[*a] * nearness(*a)).total_cmp(&(changes[*b] * nearness(*b))))?;
+    let (before, at, after) = (changes[best - 1], changes[best], changes[best + 1]);
+    let top = 0.5 * (before - after) / (before - 2.0 * at + after);
+    #[expect(clippy::cast_precision_loss, reason = "a few pixels")]
+    let off_px = (best as f64 - f64::from(half) + top) / SAMPLES;
+    Some(Found { point_px: here + normal * off_px, off_px, strength: at })
+}
+
+/// Colour at a place between pixels.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "inside the picture")]
+fn colour(picture: &Picture, at: Point2<f64>) -> Option<[f64; 3]> {
+    let (width, height) = (picture.width_px as usize, picture.height_px as usize);
+    if !(at.x >= 0.0 && at.y >= 0.0) {
+        return None;
+    }
+    let (column, row) = (at.x as usize, at.y as usize);
+    if column + 1 >= width || row + 1 >= height {
+        return None;
+    }
+    let (u, v) = (at.x.fract(), at.y.fract());
+    let byte = |dx: usize, dy: usize, c: usize| f64::from(picture.rgb[3 * ((row + dy) * width + column + dx) + c]);
+    Some([0, 1, 2].map(|c| {
+        let top = byte(0, 0, c) * (1.0 - u) + byte(1, 0, c) * u;
+        let bottom = byte(0, 1, c) * (1.0 - u) + byte(1, 1, c) * u;
+        top * (1.0 - v) + bottom * v
+    }))
+}

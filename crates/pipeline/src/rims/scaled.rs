@@ -1,0 +1,52 @@
+//! A picture at the scale in which rims are looked for.
+
+use ingest::Picture;
+
+/// The search looks at pictures whose longer side has about as many pixels: a rim of a third of the picture is then some
+/// 500 pixels long, and noise and fine texture are averaged away.
+const SEARCH_SIDE_PX: u32 = 560;
+
+/// Three planes of brightness (0-255), each pixel the mean of `factor` x `factor` pixels of the picture.
+pub(super) struct Scaled {
+    pub factor: usize,
+    pub width: usize,
+    pub height: usize,
+    /// Red, green, blue.
+    pub planes: [Vec<f32>; 3],
+}
+
+impl Scaled {
+    pub(super) fn of(picture: &Picture) -> Self {
+        let longer = picture.width_px.max(picture.height_px);
+        let factor = ((longer + SEARCH_SIDE_PX / 2) / SEARCH_SIDE_PX).max(1) as usize;
+        let full_width = picture.width_px as usize;
+        let (width, height) = (full_width / factor, picture.height_px as usize / factor);
+        let mut planes = [(); 3].map(|()| Vec::with_capacity(width * height));
+        #[expect(clippy::cast_precision_loss, reason = "a few pixels")]
+        let mean = 1.0 / (factor * factor) as f32;
+        // Columns first: bytes added to sums side by side, which a processor does many at a time.
+        let mut columns = vec![0_u16; 3 * full_width];
+        for rows in picture.rgb.chunks_exact(3 * full_width * factor).take(height) {
+            columns.fill(0);
+            for row in rows.chunks_exact(3 * full_width) {
+                for (sum, byte) in columns.iter_mut().zip(row) {
+                    *sum += u16::from(*byte);
+                }
+            }
+            for block in columns.chunks_exact(3 * factor).take(width) {
+                for (c, plane) in planes.iter_mut().enumerate() {
+                    let sum: u32 = block.iter().skip(c).step_by(3).map(|s| u32::from(*s)).sum();
+                    #[expect(clippy::cast_precision_loss, reason = "a sum of a few bytes")]
+                    plane.push(sum as f32 * mean);
+                }
+            }
+        }
+        Self { factor, width, height, planes }
+    }
+
+    /// Pixel of the full picture that lies under a place of this one.
+    #[expect(clippy::cast_precision_loss, reason = "a small factor")]
+    pub(super) fn in_full(&self, place: f64) -> f64 {
+        (place + 0.5) * self.factor as f64 - 0.5
+    }
+}
