@@ -69,4 +69,4 @@ pub use progress::{ByteBudget, IngestProgress, NoProgress};
 pub use read::{ReadError, SessionMetadata, SessionReader};
 pub use sample::Sample;
 pub use summary::{Counts, DroppedImage, ImageEntry, IngestSummary};
-pub use thumbnail::{Thumbnail, ThumbnailError, thumbnail};
+pub use thumbnail::{Thumbnail, thumbnail};

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use image::{ImageReader, Limits};
+use image::{DynamicImage, ImageReader, Limits};
 
 /// A picture: red, green and blue bytes, row by row from the top left.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,19 +25,24 @@ const MAX_BYTES: u64 = 512 << 20;
 /// Wider and higher pictures are refused.
 const MAX_SIDE_PX: u32 = 1 << 15;
 
+/// Decodes within the limits.
+pub(crate) fn decode(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(image::ImageError::from)?;
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MAX_BYTES);
+    limits.max_image_width = Some(MAX_SIDE_PX);
+    limits.max_image_height = Some(MAX_SIDE_PX);
+    reader.limits(limits);
+    Ok(reader.decode()?)
+}
+
 impl Picture {
     /// Decodes a JPEG or PNG picture.
     ///
     /// # Errors
     /// [`PictureError`] when the bytes are no picture, are damaged, or the picture is too large.
     pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
-        let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(image::ImageError::from)?;
-        let mut limits = Limits::default();
-        limits.max_alloc = Some(MAX_BYTES);
-        limits.max_image_width = Some(MAX_SIDE_PX);
-        limits.max_image_height = Some(MAX_SIDE_PX);
-        reader.limits(limits);
-        let rgb = reader.decode()?.into_rgb8();
+        let rgb = decode(bytes)?.into_rgb8();
         Ok(Self { width_px: rgb.width(), height_px: rgb.height(), rgb: rgb.into_raw() })
     }
 

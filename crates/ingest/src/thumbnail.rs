@@ -1,8 +1,6 @@
 //! Small grey pictures, for those who compare pictures and need no detail.
 
-use std::io::Cursor;
-
-use image::{ImageReader, Limits};
+use crate::picture::{self, PictureError};
 
 /// A small grey picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -15,35 +13,21 @@ pub struct Thumbnail {
     pub grey: Vec<u8>,
 }
 
-/// Why there is no small picture.
-#[derive(Debug, thiserror::Error)]
-#[error("the picture cannot be decoded: {0}")]
-pub struct ThumbnailError(#[from] image::ImageError);
-
-/// Decoding may take as much memory as this: a picture of 100 million pixels.
-const MAX_BYTES: u64 = 512 << 20;
-/// Wider and higher pictures are refused.
-const MAX_SIDE_PX: u32 = 1 << 15;
-
 /// Decodes a JPEG or PNG picture and shrinks it until neither side exceeds `max_px` (at least 1). A smaller picture is
 /// enlarged, so that all pictures of one shape come out in one size.
 ///
 /// # Errors
-/// [`ThumbnailError`] when the bytes are no picture, are damaged, or the picture is too large.
-pub fn thumbnail(bytes: &[u8], max_px: u32) -> Result<Thumbnail, ThumbnailError> {
-    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(image::ImageError::from)?;
-    let mut limits = Limits::default();
-    limits.max_alloc = Some(MAX_BYTES);
-    limits.max_image_width = Some(MAX_SIDE_PX);
-    limits.max_image_height = Some(MAX_SIDE_PX);
-    reader.limits(limits);
-    let grey = reader.decode()?.thumbnail(max_px.max(1), max_px.max(1)).to_luma8();
+/// [`PictureError`] when the bytes are no picture, are damaged, or the picture is too large.
+pub fn thumbnail(bytes: &[u8], max_px: u32) -> Result<Thumbnail, PictureError> {
+    let grey = picture::decode(bytes)?.thumbnail(max_px.max(1), max_px.max(1)).to_luma8();
     Ok(Thumbnail { width_px: grey.width(), height_px: grey.height(), grey: grey.into_raw() })
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use std::io::Cursor;
+
     use super::*;
 
     fn png(width: u32, height: u32, grey: impl Fn(u32, u32) -> u8) -> Vec<u8> {

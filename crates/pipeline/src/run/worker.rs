@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use ingest::{ByteBudget, IngestError, IngestProgress, Ingested, SessionSource};
+use ingest::{ByteBudget, IngestError, Ingested, SessionSource};
 use model::{Problem, SessionLog, SessionStatus, Severity, Stage};
 
 use super::plan::{Common, SessionPlan, of_recording, prepare};
@@ -12,7 +12,9 @@ use super::{Halted, keys};
 use crate::inputs::sha256_of_bytes;
 use crate::labelme::MARKS_UNREADABLE;
 use crate::reporter::Reporter;
-use crate::session::{BAD_MCAP, Prepared, Recording, failed, ingest_problem, measure, read_recording, tidy};
+use crate::session::{
+    BAD_MCAP, CardProgress, Prepared, Recording, failed, ingest_problem, measure, read_recording, tidy,
+};
 use crate::sessions::unless_panicking;
 use crate::stop::Stop;
 use crate::work::{KeptStage, StageOutput, WorkError, WorkFolder};
@@ -171,8 +173,12 @@ impl Worker<'_> {
 
     fn ingest_card(&self, source: &SessionSource, anew: bool) -> Result<Ingested, Trouble> {
         let mcap = self.work.mcap(&source.session);
-        let progress =
-            CardProgress { session: &source.session, reporter: self.reporter, stop: self.stop, budget: self.budget };
+        let progress = CardProgress {
+            session: &source.session,
+            reporter: self.reporter,
+            stop: self.stop,
+            budget: Some(self.budget),
+        };
         let ingested = if anew {
             ingest::ingest_session(source, &mcap, &progress).map(|summary| Ingested::Fresh(Box::new(summary)))
         } else {
@@ -257,30 +263,5 @@ fn changed_while_read(session: &str) -> Problem {
         place: format!("cards/{session}"),
         fact: "the card's files changed while they were read; what was read may be a mixture".to_owned(),
         remedy: "wait until the card is copied whole, and run again; the session is then read anew".to_owned(),
-    }
-}
-
-struct CardProgress<'a> {
-    session: &'a str,
-    reporter: &'a dyn Reporter,
-    stop: &'a Stop,
-    budget: &'a ByteBudget,
-}
-
-impl IngestProgress for CardProgress<'_> {
-    fn begin(&self, bytes: u64) {
-        self.reporter.bytes_to_read(self.session, bytes);
-    }
-
-    fn advance(&self, bytes: u64) {
-        self.reporter.bytes_read(self.session, bytes);
-    }
-
-    fn is_stopped(&self) -> bool {
-        self.stop.is_set()
-    }
-
-    fn image_budget(&self) -> Option<&ByteBudget> {
-        Some(self.budget)
     }
 }

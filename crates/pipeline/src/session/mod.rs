@@ -1,6 +1,7 @@
 //! The road of one session: card -> MCAP -> signals -> marks -> sizes -> rows.
 
 mod bench;
+mod card_progress;
 mod fuse;
 mod lag;
 mod ledger;
@@ -17,7 +18,7 @@ mod tests;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use ingest::{DroppedImage, ImageEntry, IngestError, IngestProgress};
+use ingest::{DroppedImage, ImageEntry, IngestError};
 use model::{Camera, FrameRow, Problem, ResultRow, SessionStatus, Severity, Stage};
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +27,7 @@ use crate::reporter::Reporter;
 use crate::signals::{FrameSignals, Reading};
 use crate::stop::Stop;
 use crate::study::{SessionDir, SessionSpec, Study};
+pub(crate) use card_progress::CardProgress;
 use ledger::ledger_of_failed;
 use marks::SessionMarks;
 pub(crate) use prepared::Prepared;
@@ -121,7 +123,7 @@ pub(crate) fn ingest_unkept(
     let source = &prepared.source;
     reporter.stage(&source.session, Stage::Ingest);
     let mcap = options.mcap_dir.join(format!("{}.mcap", source.session));
-    let progress = IngestReporter { session: &source.session, reporter, stop: &options.stop };
+    let progress = CardProgress { session: &source.session, reporter, stop: &options.stop, budget: None };
     let ingested = if options.survey {
         ingest::survey_session(source, &mcap, &progress)
     } else {
@@ -210,26 +212,6 @@ pub(crate) fn ingest_problem(session: &str, error: &IngestError) -> Problem {
         place: format!("cards/{session}"),
         fact: error.to_string(),
         remedy: error.remedy().to_owned(),
-    }
-}
-
-struct IngestReporter<'a> {
-    session: &'a str,
-    reporter: &'a dyn Reporter,
-    stop: &'a Stop,
-}
-
-impl IngestProgress for IngestReporter<'_> {
-    fn begin(&self, bytes: u64) {
-        self.reporter.bytes_to_read(self.session, bytes);
-    }
-
-    fn advance(&self, bytes: u64) {
-        self.reporter.bytes_read(self.session, bytes);
-    }
-
-    fn is_stopped(&self) -> bool {
-        self.stop.is_set()
     }
 }
 
