@@ -134,8 +134,11 @@ fn is_still_at(_file: &File, _path: &Path) -> bool {
     true // an open file cannot be renamed there
 }
 
-/// Writes a whole file aside and renames it.
-pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+/// Writes a whole file aside, makes it durable and renames it.
+///
+/// # Errors
+/// [`FileError`]; an earlier file of that name is then as it was.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let aside = Aside::of(path)?;
     aside.file().write_all(bytes).map_err(|source| FileError::Write { path: path.to_owned(), source })?;
     aside.sync()?;

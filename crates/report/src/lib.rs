@@ -20,7 +20,7 @@ mod table;
 mod tables;
 mod write_dir;
 
-pub use atomic::FileError;
+pub use atomic::{FileError, write as write_file};
 pub use compare::{CompareError, Comparison, Difference, compare};
 pub use parquet::{ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, run_file};
 pub use render::{csv, latex, markdown, terminal, terminal_set};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use model::SessionStatus;
 use pipeline::calibrate::{self, CalibrationFile, EmpiricalEntry, HeldOutEntry, PhysicalEntry};
 use pipeline::{Study, SurveyOptions};
@@ -26,7 +26,7 @@ pub fn run(args: &CalibrateArgs, bars: &Bars) -> Result<Outcome, Failure> {
             "nothing could be learned: a calibration needs objects with true sizes (objects.csv), marked in several setups"
         )));
     }
-    file.write(&args.out).with_context(|| format!("cannot write {}", args.out.display()))?;
+    ::report::write_file(&args.out, file.to_toml()?.as_bytes())?;
     tell(&format!("wrote {}\n", args.out.display()));
     for session in sessions.iter().filter(|session| session.has_losses()) {
         tracing::warn!(session = session.session, "not all of it could be used; aim-batch check tells what and why");

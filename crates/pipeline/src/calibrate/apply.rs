@@ -2,7 +2,7 @@
 
 use model::{Estimate, InputSigma, Kind, Method, Quantity, Source, View};
 
-use super::CalibrationFile;
+use super::{CalibrationFile, PhysicalEntry};
 
 /// What is left of the pitch of an accelerometer whose offset a bench has taught: ADXL362 data sheet, 0.5 mg per degree
 /// Celsius; 10 degrees between bench and use are 5 mg, or 0.3 degrees.
@@ -18,13 +18,20 @@ pub(crate) fn corrected_view(calibration: Option<&CalibrationFile>, method: Meth
 
 /// Uncertainties after the physical corrections: the covariance that was learned, in place of what was known before.
 pub(crate) fn inputs_after(calibration: Option<&CalibrationFile>, inputs: InputSigma) -> InputSigma {
-    let Some(physical) = calibration.and_then(|file| file.physical.as_ref()) else { return inputs };
+    match calibration.and_then(|file| file.physical.as_ref()) {
+        Some(physical) => inputs_with(physical, inputs),
+        None => inputs,
+    }
+}
+
+pub(super) fn inputs_with(physical: &PhysicalEntry, inputs: InputSigma) -> InputSigma {
     // The mount's correction holds the accelerometer's pitch; where it was not learned, nor was that.
     let learned_pitch = physical.determined.contains(&Source::Mount);
     let mut covariance = physical.covariance();
     if !learned_pitch {
         covariance[(0, 0)] = inputs.mount_rad.powi(2);
     }
+    covariance[(1, 1)] += (physical.unexplained_pct / 100.0).powi(2);
     let pitch_rad = if learned_pitch { inputs.pitch_rad.min(DRIFT_DEG.to_radians()) } else { inputs.pitch_rad };
     InputSigma { pitch_rad, learned: Some(covariance), ..inputs }
 }

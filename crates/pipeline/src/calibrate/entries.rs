@@ -76,6 +76,10 @@ pub struct PhysicalEntry {
     pub range_cone: RangeCone,
     /// Parameters that the data determine.
     pub determined: Vec<Source>,
+    /// What setups left out are off by beyond what corrected sizes claim, in per cent: an error that the sizes of a session share,
+    /// of a cause that is not known. A run adds it to the range's.
+    #[serde(default)]
+    pub unexplained_pct: f64,
     /// Covariance of mount (rad), range scale (share), range offset (mm) and focal length (share).
     pub covariance: [[f64; 4]; 4],
     /// Those that they do not.
@@ -116,6 +120,7 @@ pub(super) fn physical_entry(fitted: &Physical, range_cone: RangeCone, prior: &I
     };
     let numbered = || LEARNED.iter().enumerate();
     PhysicalEntry {
+        unexplained_pct: 0.0,
         mount_deg: mount.to_degrees(),
         mount_sd_deg: sd(0).to_degrees(),
         range_scale_pct: 100.0 * scale,

@@ -1,6 +1,5 @@
 //! calibration.toml.
 
-use std::io::Write as _;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -40,9 +39,6 @@ pub enum CalibrationFileError {
     /// It cannot be read, or is not such a file.
     #[error(transparent)]
     Config(#[from] ingest::ConfigError),
-    /// It cannot be written.
-    #[error("cannot write the calibration: {0}")]
-    Write(#[from] std::io::Error),
     /// It does not go into TOML.
     #[error("cannot write the calibration: {0}")]
     Toml(#[from] toml::ser::Error),
@@ -79,17 +75,12 @@ impl CalibrationFile {
         Ok(file)
     }
 
-    /// Writes it, whole or not at all.
+    /// As the text of a file.
     ///
     /// # Errors
-    /// What the system says.
-    pub fn write(&self, path: &Path) -> Result<(), CalibrationFileError> {
-        let text = toml::to_string(self)?;
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut file = tempfile::NamedTempFile::new_in(folder)?;
-        file.write_all(text.as_bytes())?;
-        file.persist(path).map_err(|error| error.error)?;
-        Ok(())
+    /// [`CalibrationFileError::Toml`].
+    pub fn to_toml(&self) -> Result<String, CalibrationFileError> {
+        Ok(toml::to_string(self)?)
     }
 
     fn check(&self) -> Result<(), CalibrationFileError> {
@@ -101,6 +92,7 @@ impl CalibrationFile {
                 && p.range_scale_pct.abs() <= 50.0
                 && p.focal_pct.abs() <= 50.0
                 && p.range_offset_mm.is_finite()
+                && (0.0..=100.0).contains(&p.unexplained_pct)
                 && p.covariance.iter().flatten().all(|c| c.is_finite())
                 && (0..4).all(|i| p.covariance[i][i] >= 0.0);
             if !sane {

@@ -17,6 +17,7 @@ use crate::sessions::unless_panicking;
 use crate::study::{RangeCone, Study, StudySpec};
 use crate::survey::{Survey, SurveyError, SurveyOptions};
 
+use apply::inputs_with;
 pub(crate) use apply::{corrected_view, inputs_after, scaled_paper};
 pub use entries::{EmpiricalEntry, HeldOutEntry, PhysicalEntry, ProtractorEntry, RefusedEntry};
 use entries::{empirical_entry, physical_entry};
@@ -92,10 +93,29 @@ fn add_physical(file: &mut CalibrationFile, used: &[&SessionOutput], prior: &Inp
             judged(&fitted)
         ));
     }
-    let cone = if takes_cone { RangeCone::TiltedPlane } else { RangeCone::Off };
+    let range_cone = if takes_cone { RangeCone::TiltedPlane } else { RangeCone::Off };
     let taken = with_cone.filter(|_| takes_cone).unwrap_or(fitted);
     file.notes.extend((0..LEARNED.len()).filter(|&i| !taken.determined[i]).map(|i| refusal(&taken, i, prior)));
-    file.physical = Some(physical_entry(&taken, cone, prior));
+    let mut entry = physical_entry(&taken, range_cone, prior);
+    entry.unexplained_pct = unexplained_pct(&entry, if takes_cone { &cone } else { &plain });
+    if entry.unexplained_pct > 0.0 {
+        file.notes.push(format!(
+            "unexplained: setups left out are off by {:.2} % more than corrected sizes claim; sigma_mm holds it",
+            entry.unexplained_pct
+        ));
+    }
+    file.physical = Some(entry);
+}
+
+/// What setups left out of the fit are off by beyond what corrected sizes claim.
+fn unexplained_pct(entry: &PhysicalEntry, sizes: &[BenchSize]) -> f64 {
+    let Some(off_pct) = entry.without_setup.after_rmse_pct else { return 0.0 };
+    let correction = entry.correction();
+    let claimed = |size: &BenchSize| size.claimed_pct(&correction, &inputs_with(entry, size.inputs));
+    let variances: Vec<f64> = sizes.iter().filter_map(claimed).map(|pct| pct * pct).collect();
+    #[expect(clippy::cast_precision_loss, reason = "a count of sizes is far below 2^53")]
+    let mean = variances.iter().sum::<f64>() / variances.len().max(1) as f64;
+    (off_pct * off_pct - mean).max(0.0).sqrt()
 }
 
 /// In units for people.

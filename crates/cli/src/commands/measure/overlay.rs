@@ -63,6 +63,6 @@ pub fn write(args: &MeasureArgs, view: &View, mut picture: Picture, drawn: &[Dra
     let Some(file) = &args.overlay else { return Ok(()) };
     draw(&mut picture, view, drawn);
     let png = picture.to_png().context("overlay")?;
-    std::fs::write(file, png).with_context(|| format!("cannot write the overlay {}", file.display()))?;
+    ::report::write_file(file, &png)?;
     Ok(())
 }

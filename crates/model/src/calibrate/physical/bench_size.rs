@@ -64,6 +64,13 @@ impl BenchSize {
         })
     }
 
+    /// Standard uncertainty that the size claims under a correction, with these uncertainties of what goes in: in per cent.
+    #[must_use]
+    pub fn claimed_pct(&self, correction: &Correction, inputs: &InputSigma) -> Option<f64> {
+        let (_, estimate) = self.estimate(correction)?;
+        Some(100.0 * estimate.sensitivity.sigma(inputs).total_mm / estimate.measured.predicted_mm)
+    }
+
     pub(super) fn error_pct(&self, correction: &Correction) -> Option<f64> {
         let (_, estimate) = self.estimate(correction)?;
         Some(100.0 * (estimate.measured.predicted_mm / self.true_mm - 1.0))
