@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
-use pipeline::{Halted, Holder, RunError, RunOptions};
+use pipeline::{Halted, Holder, MarksWritten, RunError, RunOptions};
 use report::{FileError, SinkError};
 
 use super::summary::{Finished, tell_summary};
@@ -19,6 +19,9 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     check(args)?;
     let study = settings::load(&args.study, &args.settings)?;
     place::check_apart(&args.place, &study)?;
+    if let Some(folder) = &args.write_marks {
+        place::check_marks(folder, &study)?;
+    }
     let out = &args.place.out;
     let frames = ::report::frames_file(out);
     if let Some(folder) = out.parent() {
@@ -30,6 +33,9 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     let progress = bars.for_run();
     let ran = pipeline::run(&study, &options, &progress, &mut sink).map_err(failure)?;
     drop((sink, progress));
+    if let Some(folder) = &args.write_marks {
+        tell_marks(pipeline::write_marks(&study, &options.work_dir, PROGRAM, folder)?, folder);
+    }
 
     let mut results = ::report::Results::read(out)?;
     results.read_flow(&frames)?;
@@ -65,6 +71,20 @@ fn options(args: &RunArgs) -> Result<RunOptions, Failure> {
         commit: COMMIT.map(str::to_owned),
         stop: stop_on_signals()?,
     })
+}
+
+/// How many files of marks there are now; those that somebody has changed are told of.
+fn tell_marks(written: MarksWritten, folder: &Path) {
+    let MarksWritten { files, left } = written;
+    tracing::info!(files, left, "rims that were found, for LabelMe, in {}/auto", folder.display());
+    if left > 0 {
+        tracing::warn!(
+            left,
+            "files in {}/auto differ from what would be written, and were left as they are; remove those that are to be \
+             written anew",
+            folder.display()
+        );
+    }
 }
 
 /// Who writes the same files, if it is a run in the same work folder.
