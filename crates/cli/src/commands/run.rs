@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
-use pipeline::{Halted, Holder, MarksWritten, RunError, RunOptions};
+use pipeline::{Halted, Holder, MarksWritten, RunError, RunOptions, WriteMarksError};
 use report::{FileError, SinkError};
 
 use super::summary::{Finished, tell_summary};
@@ -33,9 +33,9 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     let progress = bars.for_run();
     let ran = pipeline::run(&study, &options, &progress, &mut sink).map_err(failure)?;
     drop((sink, progress));
-    if let Some(folder) = &args.write_marks {
-        tell_marks(pipeline::write_marks(&study, &options.work_dir, PROGRAM, folder)?, folder);
-    }
+    let marks = args.write_marks.as_deref();
+    let marks = marks.map(|folder| Ok((folder, pipeline::write_marks(&study, &options.work_dir, PROGRAM, folder)?)));
+    let marks = marks.transpose().map_err(|error: WriteMarksError| Failure::Failed(error.into()))?;
 
     let mut results = ::report::Results::read(out)?;
     results.read_flow(&frames)?;
@@ -46,6 +46,9 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     let files = [out.clone(), frames, ::report::run_file(out)];
     let files: Vec<PathBuf> = files.into_iter().chain(args.report.clone()).collect();
     tell_summary(&Finished { ran: &ran, files: &files, work_dir: &options.work_dir }, format);
+    if let Some((folder, written)) = marks {
+        tell_marks(written, folder, format);
+    }
     if let Some(dir) = &args.expect {
         let comparison = ::report::compare(dir, &results, args.tolerance).map_err(Failure::usage)?;
         tell(&format!("{comparison}\n"));
@@ -73,17 +76,19 @@ fn options(args: &RunArgs) -> Result<RunOptions, Failure> {
     })
 }
 
-/// How many files of marks there are now; those that somebody has changed are told of.
-fn tell_marks(written: MarksWritten, folder: &Path) {
+/// How many files of marks there are now, and how many somebody has changed.
+fn tell_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
     let MarksWritten { files, left } = written;
-    tracing::info!(files, left, "rims that were found, for LabelMe, in {}/auto", folder.display());
+    let place = folder.join("auto");
+    if format == LogFormat::Json {
+        tracing::info!(files, left, "marks of rims that were found, in {}", place.display());
+        return;
+    }
+    tell(&format!("marks of rims that were found: {files} files for LabelMe in {}\n", place.display()));
     if left > 0 {
-        tracing::warn!(
-            left,
-            "files in {}/auto differ from what would be written, and were left as they are; remove those that are to be \
-             written anew",
-            folder.display()
-        );
+        tell(&format!(
+            "{left} more differ from what would be written, and were left as they are\n  -> remove those that are to be written anew\n"
+        ));
     }
 }
 

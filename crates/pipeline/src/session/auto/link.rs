@@ -17,6 +17,7 @@ pub(super) struct Sighting {
     pub time: UtcNs,
     pub kind: Kind,
     pub diameter_mm: f64,
+    /// Its standard uncertainty against other images of the session: without most of what all of them share.
     pub sigma_mm: f64,
     /// Its centre: world X, Y, from the point of the table under the camera.
     pub at_mm: [f64; 2],

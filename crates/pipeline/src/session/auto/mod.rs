@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use ingest::{ByteBudget, Picture, SessionReader};
-use model::{Camera, Container, FrameReason, Method, Problem, Quantity, Severity, Shape, Stage, View};
+use model::{Camera, Container, FrameReason, Method, Problem, Quantity, Severity, Shape, SizeSigma, Stage, View};
 use nalgebra::Point2;
 
 use super::measurement::inputs_of;
@@ -139,7 +139,7 @@ impl Search<'_> {
             time: frame.image.time,
             kind: rim.kind,
             diameter_mm: diameter.measured.predicted_mm,
-            sigma_mm: diameter.sigma.total_mm,
+            sigma_mm: sigma_within_session_mm(&diameter.sigma),
             at_mm: rim.on_table_mm.0.map(|c| c * lower),
         };
         let image = frame.image.file.clone();
@@ -157,6 +157,16 @@ impl Search<'_> {
         }
     }
 }
+
+/// Uncertainty of a size against others of its session: a wrong angle or range makes all of them wrong alike, but for the part
+/// that differs between views.
+fn sigma_within_session_mm(sigma: &SizeSigma) -> f64 {
+    let own = (sigma.total_mm.powi(2) - sigma.common_mm.powi(2)).max(0.0).sqrt();
+    own.hypot(VIEWS_DIFFER * sigma.common_mm)
+}
+
+/// Part of the common uncertainty that is left between two views of the same thing.
+const VIEWS_DIFFER: f64 = 0.3;
 
 /// A decoded picture has three bytes per pixel; edges are found in a fourth.
 const BYTES_PER_PIXEL: u64 = 4;
