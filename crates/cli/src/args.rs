@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use model::{Kind, Method, Shape, Wall};
+use pipeline::study::MarksSource;
 
 use crate::logging::LogFormat;
 
@@ -82,6 +83,10 @@ pub struct RunArgs {
     /// Delete from the work folder what belongs to sessions that the study no longer has
     #[arg(long)]
     pub prune: bool,
+    /// Also write the rims that were found as LabelMe files, DIR/auto/SESSION/IMAGE.json, to check and correct; files that are
+    /// there stay as they are
+    #[arg(long, value_name = "DIR")]
+    pub write_marks: Option<PathBuf>,
     /// Also write the tables to this folder (CSV, Markdown, LaTeX)
     #[arg(long, env = "AIM_BATCH_REPORT")]
     pub report: Option<PathBuf>,
@@ -158,6 +163,9 @@ pub struct SettingsArgs {
     /// Methods (paper, ray, coaxial, joint, best), separated by commas; default: those of study.toml
     #[arg(long, env = "AIM_BATCH_METHOD", value_delimiter = ',')]
     pub method: Vec<Method>,
+    /// Who marks: manual (the study's files), auto (rims found in the selected images) or both; default: study.toml's
+    #[arg(long, env = "AIM_BATCH_MARKS", value_name = "manual|auto|both")]
+    pub marks: Option<MarksSource>,
     /// Pitch near which frames are selected, in degrees; default: study.toml's
     #[arg(long, env = "AIM_BATCH_TARGET_PITCH")]
     pub target_pitch: Option<f64>,

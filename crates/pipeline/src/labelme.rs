@@ -9,6 +9,11 @@ use model::{Feature, Mark, ObjectMarks, Quantity};
 use nalgebra::Point2;
 use serde::Deserialize;
 
+use crate::rims::Found;
+pub(crate) use write::{AutoRim, text_of};
+
+mod write;
+
 /// Larger than any file of marks (LabelMe may embed the picture itself).
 const LARGEST_FILE_BYTES: u64 = 256 * 1024 * 1024;
 
@@ -94,6 +99,8 @@ pub(crate) const MARKS_UNREADABLE: &str = "marks_unreadable";
 pub struct Marks {
     /// Marks by object, in the order of their names.
     pub objects: Vec<ObjectMarks>,
+    /// What is known of those that the program found itself, by object.
+    pub found: BTreeMap<String, Found>,
     /// Shapes that are no marks: [`MarksError::Shape`], in file order.
     pub refused: Vec<MarksError>,
 }
@@ -113,6 +120,9 @@ struct Shape {
     points: Vec<[f64; 2]>,
     #[serde(default)]
     shape_type: Option<String>,
+    /// A key of this program's own: LabelMe keeps keys that it does not know.
+    #[serde(rename = "aim_batch", default)]
+    found: Option<serde_json::Value>,
 }
 
 /// Reads the bytes of a file of marks, for [`parse`].
@@ -149,22 +159,25 @@ pub fn parse(bytes: &[u8], path: &Path, picture_px: [u32; 2]) -> Result<Marks, M
         return Err(MarksError::OtherPicture { path: path.to_owned(), got_width, got_height, width, height });
     }
     let mut objects: BTreeMap<String, Vec<Mark>> = BTreeMap::new();
-    let mut refused = Vec::new();
+    let (mut refused, mut found) = (Vec::new(), BTreeMap::new());
     for (number, shape) in (1..).zip(&file.shapes) {
         let within = |(object, mark): (String, Mark)| {
             let of_object: &[Mark] = objects.get(&object).map_or(&[], Vec::as_slice);
             let points = of_object.iter().chain([&mark]).map(|mark| mark.points_px().len()).sum::<usize>();
             if of_object.len() < MOST_MARKS && points <= MOST_POINTS { Ok((object, mark)) } else { Err(too_many()) }
         };
-        match mark(shape).and_then(within) {
-            Ok((object, mark)) => objects.entry(object).or_default().push(mark),
+        match mark(shape).and_then(within).and_then(|marked| Ok((marked, found_of(shape)?))) {
+            Ok(((object, mark), of_shape)) => {
+                found.extend(of_shape.map(|of_shape| (object.clone(), of_shape)));
+                objects.entry(object).or_default().push(mark);
+            }
             Err(fact) => {
                 refused.push(MarksError::Shape { path: path.to_owned(), number, label: shape.label.clone(), fact });
             }
         }
     }
     let objects = objects.into_iter().map(|(object, marks)| ObjectMarks { object, marks }).collect();
-    Ok(Marks { objects, refused })
+    Ok(Marks { objects, found, refused })
 }
 
 /// Nobody marks one object in one picture more often, or with more points; uncertainties take memory by marks times points.
@@ -173,6 +186,14 @@ const MOST_POINTS: usize = 20_000;
 
 fn too_many() -> String {
     format!("expected at most {MOST_MARKS} marks and {MOST_POINTS} points of one object in one picture")
+}
+
+/// What finding the rim told of it, where the program found it.
+fn found_of(shape: &Shape) -> Result<Option<Found>, String> {
+    let refuse = |fact: String| format!("its key aim_batch is not as this program wrote it ({fact}): remove the key");
+    let Some(value) = &shape.found else { return Ok(None) };
+    let found = Found::deserialize(value).map_err(|error| refuse(error.to_string()))?;
+    found.fault().map_or(Ok(Some(found)), |fault| Err(refuse(fault.to_owned())))
 }
 
 fn mark(shape: &Shape) -> Result<(String, Mark), String> {

@@ -29,6 +29,7 @@ mod stop;
 pub mod study;
 mod survey;
 mod work;
+mod write_marks;
 
 pub use check::{Checked, check};
 pub use inspect::{inspect_file, inspect_study};
@@ -39,3 +40,4 @@ pub use stop::Stop;
 pub use study::{Study, StudyError};
 pub use survey::{SurveyError, SurveyOptions};
 pub use work::{Holder, WorkError};
+pub use write_marks::{MarksWritten, WriteMarksError, write_marks};

@@ -38,6 +38,22 @@ pub fn check_apart(place: &PlaceArgs, study: &Study) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Whether marks may be written there: not on cards; and only those that the program finds.
+pub fn check_marks(folder: &Path, study: &Study) -> Result<(), Failure> {
+    let refuse = |fact: &str| Err(Failure::Usage(anyhow!("--write-marks {}: {fact}", folder.display())));
+    if !study.spec.marks.source.searches() {
+        return refuse("nothing is looked for in pictures: give --marks auto or --marks both");
+    }
+    let whole = whole(folder);
+    if study.dir.join("cards").canonicalize().is_ok_and(|cards| whole.starts_with(cards)) {
+        return refuse("expected a place outside the study's cards/");
+    }
+    if folder.exists() && !folder.is_dir() {
+        return refuse("there is a file of this name; expected a folder");
+    }
+    Ok(())
+}
+
 /// A path with links followed as far as it exists.
 fn whole(path: &Path) -> PathBuf {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());

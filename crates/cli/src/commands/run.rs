@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
-use pipeline::{Halted, Holder, RunError, RunOptions};
+use pipeline::{Halted, Holder, MarksWritten, RunError, RunOptions, WriteMarksError};
 use report::{FileError, SinkError};
 
 use super::summary::{Finished, tell_summary};
@@ -19,6 +19,9 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     check(args)?;
     let study = settings::load(&args.study, &args.settings)?;
     place::check_apart(&args.place, &study)?;
+    if let Some(folder) = &args.write_marks {
+        place::check_marks(folder, &study)?;
+    }
     let out = &args.place.out;
     let frames = ::report::frames_file(out);
     if let Some(folder) = out.parent() {
@@ -30,6 +33,9 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     let progress = bars.for_run();
     let ran = pipeline::run(&study, &options, &progress, &mut sink).map_err(failure)?;
     drop((sink, progress));
+    let marks = args.write_marks.as_deref();
+    let marks = marks.map(|folder| Ok((folder, pipeline::write_marks(&study, &options.work_dir, PROGRAM, folder)?)));
+    let marks = marks.transpose().map_err(|error: WriteMarksError| Failure::Failed(error.into()))?;
 
     let mut results = ::report::Results::read(out)?;
     results.read_flow(&frames)?;
@@ -40,6 +46,9 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     let files = [out.clone(), frames, ::report::run_file(out)];
     let files: Vec<PathBuf> = files.into_iter().chain(args.report.clone()).collect();
     tell_summary(&Finished { ran: &ran, files: &files, work_dir: &options.work_dir }, format);
+    if let Some((folder, written)) = marks {
+        tell_marks(written, folder, format);
+    }
     if let Some(dir) = &args.expect {
         let comparison = ::report::compare(dir, &results, args.tolerance).map_err(Failure::usage)?;
         tell(&format!("{comparison}\n"));
@@ -65,6 +74,22 @@ fn options(args: &RunArgs) -> Result<RunOptions, Failure> {
         commit: COMMIT.map(str::to_owned),
         stop: stop_on_signals()?,
     })
+}
+
+/// How many files of marks there are now, and how many somebody has changed.
+fn tell_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
+    let MarksWritten { files, left } = written;
+    let place = folder.join("auto");
+    if format == LogFormat::Json {
+        tracing::info!(files, left, "marks of rims that were found, in {}", place.display());
+        return;
+    }
+    tell(&format!("marks of rims that were found: {files} files for LabelMe in {}\n", place.display()));
+    if left > 0 {
+        tell(&format!(
+            "{left} more differ from what would be written, and were left as they are\n  -> remove those that are to be written anew\n"
+        ));
+    }
 }
 
 /// Who writes the same files, if it is a run in the same work folder.

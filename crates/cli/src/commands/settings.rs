@@ -23,6 +23,9 @@ fn apply(args: &SettingsArgs, spec: &mut StudySpec) {
     if !args.method.is_empty() {
         spec.measure.methods.clone_from(&args.method);
     }
+    if let Some(source) = args.marks {
+        spec.marks.source = source;
+    }
     if let Some(pitch_deg) = args.target_pitch {
         spec.select.target_pitch_deg = pitch_deg;
     }

@@ -121,6 +121,7 @@ schema! {
         chi_squared: Option<f64> = "chi-square of what was fused about its mean, correlations counted",
         chi_squared_degrees: Option<u32> = "its degrees of freedom",
         consistency: Option<Verdict> = "whether what was fused differs by no more than its uncertainties allow: consistent or inconsistent",
+        confidence: Option<f64> = "of a rim that the program found itself (docs/rims.md): how sure it is that it is a container's, 0 to 1; fused: mean of the images; empty for people's marks",
     }
 }
 

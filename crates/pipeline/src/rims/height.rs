@@ -4,12 +4,15 @@
 //! k = c / (c - H) about the point under the camera, so its centre shows where the foot's centre must be for every H. The
 //! outline of the wall is, there, that of the two circles with a line stretched around both.
 
+use serde::{Deserialize, Serialize};
+
 use super::arcs::Arc;
 use super::buckets::Buckets;
 use super::raster::Raster;
 
 /// Height of a rim above the table.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RimHeight {
     /// The height.
     pub mm: f64,
@@ -20,7 +23,8 @@ pub struct RimHeight {
 }
 
 /// Where the height of a rim comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum HeightSource {
     /// It was given.
     Given,

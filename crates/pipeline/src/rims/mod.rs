@@ -12,6 +12,7 @@ mod arcs;
 mod buckets;
 mod chains;
 mod edges;
+mod found;
 mod ground;
 mod height;
 mod outward;
@@ -32,6 +33,7 @@ use nalgebra::{Point2, Point3};
 
 use arcs::Arc;
 use buckets::Buckets;
+pub use found::Found;
 pub use height::{HeightSource, RimHeight};
 use scaled::Scaled;
 
@@ -83,8 +85,10 @@ pub enum RimError {
 const PLATE_MM: f64 = 190.0;
 const ALWAYS_PLATE_MM: f64 = 220.0;
 const PLATE_HEIGHT: f64 = 0.3;
+/// Version of what is found. A change of meaning gives another number, and pictures are searched anew.
+pub(crate) const VERSION: u32 = 1;
 /// Fewer points do not hold a rim.
-const LEAST_POINTS: usize = 12;
+pub(crate) const LEAST_POINTS: usize = 12;
 
 /// The rims in a picture taken from a known pose, most likely first.
 ///

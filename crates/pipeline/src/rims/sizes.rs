@@ -1,16 +1,36 @@
 //! Sizes of a found rim, by the code that measures people's marks.
 
 use model::{
-    Container, Estimate, InputSigma, Kind, MeasureError, Measured, Method, PerSource, Quantity, Sensitivity, View,
-    estimate,
+    Container, Estimate, InputSigma, Kind, MeasureError, Measured, Method, ObjectMarks, PerSource, Quantity,
+    Sensitivity, View, estimate,
 };
 
-use super::{HeightSource, Rim, RimHeight};
+use super::{Found, HeightSource, Rim, RimHeight};
 
 /// The places of an edge share an error of about this many pixels, outward or inward: rims are rounded, lenses blur.
 const SHARED_PX: f64 = 0.5;
 
 impl Rim {
+    /// The height of the plane that it is measured on: what is known, zero for a plate, else what was found.
+    #[must_use]
+    pub fn height_as(&self, container: &Container) -> RimHeight {
+        self.found().height_as(container)
+    }
+
+    /// Its sizes; see [`Found::sizes`].
+    #[must_use]
+    pub fn sizes(
+        &self,
+        view: &View,
+        method: Method,
+        container: &Container,
+        inputs: &InputSigma,
+    ) -> Vec<(Quantity, Result<Estimate, MeasureError>)> {
+        self.found().sizes(view, method, container, &self.marks(""), inputs)
+    }
+}
+
+impl Found {
     /// The height of the plane that it is measured on: what is known, zero for a plate, else what was found.
     #[must_use]
     pub fn height_as(&self, container: &Container) -> RimHeight {
@@ -21,21 +41,21 @@ impl Rim {
         }
     }
 
-    /// Its sizes: of a bowl of unknown height the height, and the diameter with what the height's uncertainty makes of it (in
-    /// the part from the marks).
+    /// Sizes by the marks of the rim: of a bowl of unknown height the height, and the diameter with what the height's
+    /// uncertainty makes of it (in the part from the marks).
     #[must_use]
     pub fn sizes(
         &self,
         view: &View,
         method: Method,
         container: &Container,
+        marks: &ObjectMarks,
         inputs: &InputSigma,
     ) -> Vec<(Quantity, Result<Estimate, MeasureError>)> {
         let height = self.height_as(container);
-        let marks = self.marks("");
         let on_plane = |mm: f64| {
             let container = Container { rim_height_mm: Some(mm), ..*container };
-            estimate(view, method, &container, &marks, inputs)
+            estimate(view, method, &container, marks, inputs)
         };
         let diameter_mm = |mm: f64| match on_plane(mm).as_slice() {
             [(_, Ok(estimate)), ..] => Some(estimate.measured.predicted_mm),

@@ -1,7 +1,7 @@
 //! What each stage of a session is made from, as one hash.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use ingest::Fingerprint;
 use model::CameraSpec;
@@ -9,14 +9,17 @@ use serde::Serialize;
 
 use crate::calibrate::CalibrationFile;
 use crate::inputs::{sha256_of_bytes, sha256_of_file};
+use crate::rims;
 use crate::session::Prepared;
 use crate::signals::ReadingSettings;
-use crate::study::{MeasureSpec, SelectSpec, SessionDir, SessionSpec, SignalsSpec, Study, TimeSpec, UncertaintySpec};
+use crate::study::{
+    MarksSource, MeasureSpec, SelectSpec, SessionDir, SessionSpec, SignalsSpec, Study, TimeSpec, UncertaintySpec,
+};
 
 /// Version of what the signals stage gives. A change of meaning gives another number, and recordings are read anew.
 const SIGNALS_VERSION: u32 = 1;
 /// Version of what measuring gives, likewise.
-const MEASURE_VERSION: u32 = 2;
+const MEASURE_VERSION: u32 = 3;
 
 #[derive(Serialize)]
 struct SignalsParts<'a> {
@@ -56,6 +59,16 @@ pub(super) struct MeasureParts<'a> {
     marks_camera: &'a CameraSpec,
     objects_csv: &'a str,
     raters: Vec<&'a str>,
+    marks_source: MarksSource,
+    search: Option<SearchParts<'a>>,
+}
+
+/// What the search for rims depends on, where there is one.
+#[derive(Serialize)]
+struct SearchParts<'a> {
+    version: u32,
+    min_confidence: f64,
+    camera: &'a CameraSpec,
 }
 
 impl<'a> MeasureParts<'a> {
@@ -67,7 +80,7 @@ impl<'a> MeasureParts<'a> {
         signals_key: &'a str,
         objects_csv: &'a str,
     ) -> Self {
-        let spec = &study.spec;
+        let (spec, source) = (&study.spec, study.spec.marks.source);
         Self {
             version: MEASURE_VERSION,
             program,
@@ -83,15 +96,26 @@ impl<'a> MeasureParts<'a> {
             calibration: study.calibration.as_ref(),
             marks_camera: &prepared.marks_camera.0,
             objects_csv,
-            raters: dir.marks.keys().map(String::as_str).collect(),
+            raters: if source.reads() { dir.marks.keys().map(String::as_str).collect() } else { Vec::new() },
+            marks_source: source,
+            search: source.searches().then_some(SearchParts {
+                version: rims::VERSION,
+                min_confidence: spec.marks.min_confidence,
+                camera: &prepared.source.camera_spec,
+            }),
         }
+    }
+
+    /// The files of marks that are read.
+    fn marks_files(&self, dir: &SessionDir) -> Vec<(String, PathBuf)> {
+        if self.marks_source.reads() { dir.marks_files() } else { Vec::new() }
     }
 
     /// What the system says of the marks, under these settings.
     pub fn fingerprint(&self, dir: &SessionDir) -> Result<Fingerprint, serde_json::Error> {
         let mut fingerprint = Fingerprint::default();
         fingerprint.add_text(&hash(self)?);
-        for (name, path) in dir.marks_files() {
+        for (name, path) in self.marks_files(dir) {
             fingerprint.add_file(&name, &path);
         }
         Ok(fingerprint)
@@ -101,7 +125,7 @@ impl<'a> MeasureParts<'a> {
     pub fn key(&self, dir: &SessionDir) -> Result<String, serde_json::Error> {
         let of_file = |path: &Path| sha256_of_file(path).unwrap_or_else(|error| error.kind().to_string());
         let marks: BTreeMap<String, String> =
-            dir.marks_files().into_iter().map(|(name, path)| (name, of_file(&path))).collect();
+            self.marks_files(dir).into_iter().map(|(name, path)| (name, of_file(&path))).collect();
         hash(&(self, marks))
     }
 }

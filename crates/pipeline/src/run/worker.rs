@@ -13,7 +13,8 @@ use crate::inputs::sha256_of_bytes;
 use crate::labelme::MARKS_UNREADABLE;
 use crate::reporter::Reporter;
 use crate::session::{
-    BAD_MCAP, CardProgress, Prepared, Recording, failed, ingest_problem, measure, read_recording, tidy,
+    AutoMarks, BAD_MCAP, CardProgress, Prepared, Recording, Search, SearchError, failed, ingest_problem, measure,
+    read_recording, tidy,
 };
 use crate::sessions::unless_panicking;
 use crate::stop::Stop;
@@ -45,6 +46,15 @@ enum Trouble {
 impl From<Problem> for Trouble {
     fn from(problem: Problem) -> Self {
         Self::Session(Box::new(problem))
+    }
+}
+
+impl From<SearchError> for Trouble {
+    fn from(error: SearchError) -> Self {
+        match error {
+            SearchError::Stopped => Self::Stopped,
+            SearchError::Recording(problem) => Self::Session(problem),
+        }
     }
 }
 
@@ -109,7 +119,8 @@ impl Worker<'_> {
             self.work.state.touch(&plan.dir.name, Stage::Ingest, None)?;
         }
         let start = Instant::now();
-        let mut output = measure(self.common.study, plan.dir, &prepared, recording, self.reporter);
+        let auto = self.search(plan, &prepared, &recording)?;
+        let mut output = measure(self.common.study, plan.dir, &prepared, recording, auto, self.reporter);
         output.status.problems.extend(changed);
         tidy(&mut output, self.common.study, &self.work.mcap_dir);
         log.measure_s = Some(start.elapsed().as_secs_f64());
@@ -207,9 +218,7 @@ impl Worker<'_> {
         let read = || read_recording(self.common.study, &self.mcap(plan), session);
         let recording = match read() {
             Err(problem) if problem.code == BAD_MCAP => {
-                tracing::warn!(session, "{}; its card is ingested again", problem.fact);
-                let ingested = self.ingest_card(&prepared.source, true)?;
-                self.keep_recording(plan, ingested.key(), None, start.elapsed().as_secs_f64())?;
+                self.ingest_again(plan, prepared, &problem)?;
                 read()?
             }
             other => other?,
@@ -220,6 +229,28 @@ impl Worker<'_> {
         let kept = StageOutput { key, fingerprint: None, seconds, output: &output, status: None };
         self.work.state.keep(session, Stage::Signals, &kept)?;
         Ok(recording)
+    }
+
+    /// Makes a damaged recording anew.
+    fn ingest_again(&self, plan: &SessionPlan<'_>, prepared: &Prepared, problem: &Problem) -> Result<(), Trouble> {
+        let start = Instant::now();
+        tracing::warn!(session = plan.dir.name, "{}; its card is ingested again", problem.fact);
+        let ingested = self.ingest_card(&prepared.source, true)?;
+        Ok(self.keep_recording(plan, ingested.key(), None, start.elapsed().as_secs_f64())?)
+    }
+
+    /// Rims in the pictures of the recording, if they are to be found. A recording that is damaged is made again, once.
+    fn search(&self, plan: &SessionPlan<'_>, prepared: &Prepared, recording: &Recording) -> Result<AutoMarks, Trouble> {
+        let mcap = self.mcap(plan);
+        let (study, dir, budget, stop) = (self.common.study, plan.dir, self.budget, self.stop);
+        let search = Search { study, dir, prepared, mcap: &mcap, budget, stop };
+        match search.run(recording) {
+            Err(SearchError::Recording(problem)) => {
+                self.ingest_again(plan, prepared, &problem)?;
+                Ok(search.run(recording)?)
+            }
+            other => Ok(other?),
+        }
     }
 
     fn keep_failed(&self, plan: &SessionPlan<'_>, problem: Problem) -> Result<SessionStatus, Halted> {

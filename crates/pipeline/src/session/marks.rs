@@ -5,22 +5,48 @@ use std::path::{Path, PathBuf};
 
 use model::{FrameReason, ObjectMarks, Problem, Severity, Stage};
 
+use super::auto::{AUTO, container_of};
 use super::problems::LINK_FACT;
 use super::{Session, SessionOutput, relative};
 use crate::inputs::sha256_of_bytes;
-use crate::labelme::{self, MarksError};
-use crate::study::marks_in;
+use crate::labelme::{self, AutoRim, MarksError};
+use crate::rims::Found;
+use crate::study::{Object, Study, marks_in};
 
 /// Marks by image (file on the card), then rater.
 #[derive(Debug, Default)]
 pub(super) struct SessionMarks {
-    by_image: BTreeMap<String, BTreeMap<String, Vec<ObjectMarks>>>,
+    by_image: BTreeMap<String, BTreeMap<String, Vec<MarkedObject>>>,
+}
+
+/// The marks of one object on one image, and what is known of it.
+#[derive(Debug)]
+pub(super) struct MarkedObject {
+    pub marks: ObjectMarks,
+    pub object: Object,
+    /// Where the program found it itself.
+    pub found: Option<Found>,
+}
+
+impl MarkedObject {
+    /// An object of objects.csv, or one that was found; else none.
+    fn new(study: &Study, marks: ObjectMarks, found: Option<Found>) -> Result<Self, ObjectMarks> {
+        let unlisted = || Some(Object { container: container_of(found.as_ref()?), truth_mm: BTreeMap::new() });
+        match study.objects.get(&marks.object).cloned().or_else(unlisted) {
+            Some(object) => Ok(Self { marks, object, found }),
+            None => Err(marks),
+        }
+    }
 }
 
 impl SessionMarks {
     /// Reads the marks of all raters. What cannot be used becomes a problem; the rest is kept.
     pub(super) fn read(session: &Session<'_>, output: &mut SessionOutput) -> Self {
         let mut marks = Self::default();
+        // A bench is measured by what people marked.
+        if !(session.study.spec.marks.source.reads() || session.study.is_bench) {
+            return marks;
+        }
         let images = images_by_stem(session);
         for (rater, dir) in &session.dir.marks {
             for file in files_of(session, dir, &mut output.status.problems) {
@@ -39,8 +65,17 @@ impl SessionMarks {
         marks
     }
 
+    /// Adds what the program found, as rater [`AUTO`]. A file of that rater comes first.
+    pub(super) fn add_found(&mut self, study: &Study, by_image: &BTreeMap<String, Vec<AutoRim>>) {
+        for (image, rims) in by_image {
+            let marked = rims.iter().filter_map(|rim| MarkedObject::new(study, rim.marks(), Some(rim.found)).ok());
+            let by_rater = self.by_image.entry(image.clone()).or_default();
+            by_rater.entry(AUTO.to_owned()).or_insert_with(|| marked.collect());
+        }
+    }
+
     /// Marks on one image, by rater.
-    pub(super) fn of_image(&self, file: &str) -> impl Iterator<Item = (&String, &Vec<ObjectMarks>)> {
+    pub(super) fn of_image(&self, file: &str) -> impl Iterator<Item = (&String, &Vec<MarkedObject>)> {
         self.by_image.get(file).into_iter().flatten()
     }
 }
@@ -78,7 +113,7 @@ fn read_file(
     images: &ImagesByStem<'_>,
     path: &Path,
     output: &mut SessionOutput,
-) -> Result<Option<(String, Vec<ObjectMarks>)>, Problem> {
+) -> Result<Option<(String, Vec<MarkedObject>)>, Problem> {
     let place = relative(session.study, path);
     let refuse = |error: MarksError| {
         problem(error.code(), place.clone(), error.to_string(), "correct the marks in LabelMe and run again")
@@ -96,7 +131,7 @@ fn read_file(
             "give the file the image's name, or remove it",
         )),
         Some([Image { file, dropped: None }]) => {
-            Ok(Some(((*file).to_owned(), known_objects(session, marks.objects, &place, output))))
+            Ok(Some(((*file).to_owned(), known_objects(session, marks.objects, &marks.found, &place, output))))
         }
         Some([Image { dropped: Some(reason), .. }]) => {
             let fact = format!("its image was dropped: {}", reason.meaning());
@@ -133,11 +168,18 @@ fn images_by_stem<'a>(session: &'a Session<'_>) -> ImagesByStem<'a> {
 fn known_objects(
     session: &Session<'_>,
     marks: Vec<ObjectMarks>,
+    found: &BTreeMap<String, Found>,
     place: &str,
     output: &mut SessionOutput,
-) -> Vec<ObjectMarks> {
-    let (known, unknown): (Vec<_>, Vec<_>) =
-        marks.into_iter().partition(|marks| session.study.objects.contains_key(&marks.object));
+) -> Vec<MarkedObject> {
+    let (mut known, mut unknown) = (Vec::new(), Vec::new());
+    for marks in marks {
+        let found = found.get(&marks.object).copied();
+        match MarkedObject::new(session.study, marks, found) {
+            Ok(marked) => known.push(marked),
+            Err(marks) => unknown.push(marks),
+        }
+    }
     for marks in unknown {
         let names: Vec<_> = session.study.objects.keys().map(String::as_str).collect();
         let fact = format!("object '{}' is not in objects.csv, which has: {}", marks.object, names.join(", "));
@@ -147,7 +189,7 @@ fn known_objects(
     known
 }
 
-fn stem_of(file: &str) -> String {
+pub(crate) fn stem_of(file: &str) -> String {
     Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default()
 }
 

@@ -4,13 +4,15 @@ use std::collections::BTreeSet;
 
 use model::{
     Doubt, Estimate, FrameFlag, InputSigma, MeasureError, Method, ObjectMarks, Problem, Quantity, ResultRow, Severity,
-    Stage, View, best_of, estimate,
+    Stage, View, best_of,
 };
 
-use super::marks::SessionMarks;
+use super::found;
+use super::marks::{MarkedObject, SessionMarks};
 use super::row::frame_row;
 use super::{Frame, Session};
 use crate::calibrate::{corrected_view, inputs_after, scaled_paper};
+use crate::rims::Found;
 use crate::study::{Object, Study};
 
 /// One object as one rater marked it on one frame.
@@ -22,6 +24,8 @@ pub(super) struct Marked<'a> {
     pub rater: &'a str,
     pub object: &'a Object,
     pub marks: &'a ObjectMarks,
+    /// What is known of a rim that the program found.
+    pub found: Option<Found>,
     /// Uncertainties of this image.
     pub inputs: InputSigma,
 }
@@ -44,6 +48,8 @@ pub(super) struct Measurement {
     pub inputs: InputSigma,
     /// Number of the image in its session.
     pub picture: usize,
+    /// Part of the marks' uncertainty that all images share, mm: the height and the edge of a rim that was found.
+    pub shared_mm: f64,
     /// At least 1: factor on its variance where it is weighed against other images.
     pub penalty: f64,
 }
@@ -65,9 +71,10 @@ pub(super) fn marked<'a>(
                 continue;
             }
             let inputs = inputs_of(session.study, frame);
-            // Marks of unknown objects were refused when they were read.
-            let known = objects.iter().filter_map(|marks| Some((session.study.objects.get(&marks.object)?, marks)));
-            found.extend(known.map(|(object, marks)| Marked { session, number, frame, rater, object, marks, inputs }));
+            found.extend(objects.iter().map(|MarkedObject { marks, object, found }| {
+                let found = *found;
+                Marked { session, number, frame, rater, object, marks, found, inputs }
+            }));
         }
     }
     found
@@ -118,7 +125,7 @@ fn measure_one(marked: &Marked<'_>, problems: &mut Vec<Problem>) -> Vec<Measurem
     let sizes: Vec<(Method, Quantity, Result<Estimate, MeasureError>)> = wanted
         .filter_map(|method| Some((method, marked.view(method)?)))
         .flat_map(|(method, view)| {
-            let found = estimate(&view, method, &marked.object.container, marked.marks, &marked.inputs);
+            let found = found::estimates(marked, &view, method);
             found.into_iter().map(move |(quantity, size)| (method, quantity, size.map(|e| as_read(marked, &view, e))))
         })
         .collect();
@@ -171,6 +178,10 @@ fn measurement(
     let used = size.as_ref().map_or(method, |estimate| estimate.method);
     let view = marked.view(used)?;
     Some(Measurement {
+        shared_mm: size.as_ref().map_or(0.0, |estimate| match marked.found {
+            Some(_) => found::shared_mm(estimate, &marked.inputs),
+            None => 0.0,
+        }),
         row: frame_row(marked, *view.pose(), method, quantity, &size),
         estimate: size.ok(),
         inputs: marked.inputs,

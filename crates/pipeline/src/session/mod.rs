@@ -1,7 +1,9 @@
 //! The road of one session: card -> MCAP -> signals -> marks -> sizes -> rows.
 
+mod auto;
 mod bench;
 mod card_progress;
+mod found;
 mod fuse;
 mod lag;
 mod ledger;
@@ -23,13 +25,16 @@ use model::{Camera, FrameRow, Problem, ResultRow, SessionStatus, Severity, Stage
 use serde::{Deserialize, Serialize};
 
 use crate::calibrate::BenchSession;
+use crate::labelme::AutoRim;
 use crate::reporter::Reporter;
 use crate::signals::{FrameSignals, Reading};
 use crate::stop::Stop;
 use crate::study::{SessionDir, SessionSpec, Study};
+pub(crate) use auto::{AUTO, AutoMarks, Search, SearchError};
 pub(crate) use card_progress::CardProgress;
 use ledger::ledger_of_failed;
 use marks::SessionMarks;
+pub(crate) use marks::stem_of;
 pub(crate) use prepared::Prepared;
 use problems::no_pose;
 pub(crate) use problems::without_host;
@@ -46,6 +51,9 @@ pub(crate) struct SessionOutput {
     pub frames: Vec<FrameRow>,
     /// SHA-256 of what was read, by path relative to the study.
     pub inputs_sha256: BTreeMap<String, String>,
+    /// Rims that the program found itself, by image (file on the card).
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub auto: BTreeMap<String, Vec<AutoRim>>,
     /// Known sizes, where a calibration asks for them.
     #[serde(skip)]
     pub bench: BenchSession,
@@ -111,7 +119,7 @@ fn unkept(
     let mcap = ingest_unkept(&prepared, options, reporter)?;
     reporter.stage(&dir.name, Stage::Signals);
     let recording = read_recording(study, &mcap, &dir.name)?;
-    Ok(measure(study, dir, &prepared, recording, reporter))
+    Ok(measure(study, dir, &prepared, recording, AutoMarks::default(), reporter))
 }
 
 /// Ingests or surveys a card; gives the MCAP file.
@@ -159,32 +167,43 @@ pub(crate) fn log_problems(status: &SessionStatus) {
     }
 }
 
-/// From a recording to rows.
+/// The images of a recording with their signals.
+fn frames(study: &Study, prepared: &Prepared, recording: &Recording) -> Vec<Frame> {
+    let settings = prepared.pose_settings(study, recording.mount_pitch_deg);
+    let of_image =
+        |(image, reading): (&ImageEntry, &Reading)| Frame { image: image.clone(), signals: reading.judge(&settings) };
+    recording.images.iter().zip(&recording.readings).map(of_image).collect()
+}
+
+/// From a recording, and what was found in its pictures, to rows.
 pub(crate) fn measure(
     study: &Study,
     dir: &SessionDir,
     prepared: &Prepared,
     recording: Recording,
+    auto: AutoMarks,
     reporter: &dyn Reporter,
 ) -> SessionOutput {
     let mut output = SessionOutput::default();
     output.status.session.clone_from(&dir.name);
+    let frames = frames(study, prepared, &recording);
     output.status.problems = recording.problems;
     output.inputs_sha256.extend(prepared.session_toml_sha256.clone());
     let on_card = recording.inputs_sha256.into_iter().map(|(file, sha)| (format!("cards/{}/{file}", dir.name), sha));
     output.inputs_sha256.extend(on_card);
-    let settings = prepared.pose_settings(study, recording.mount_pitch_deg);
-    let of_image = |(image, reading): (ImageEntry, Reading)| Frame { image, signals: reading.judge(&settings) };
     let session = Session {
         study,
         dir,
         spec: prepared.spec.clone(),
         marks_camera: prepared.marks_camera.1,
-        frames: recording.images.into_iter().zip(recording.readings).map(of_image).collect(),
+        frames,
         dropped: recording.dropped,
     };
     reporter.stage(&dir.name, Stage::Marks);
-    let marks = SessionMarks::read(&session, &mut output);
+    let mut marks = SessionMarks::read(&session, &mut output);
+    output.status.problems.extend(auto.problems);
+    marks.add_found(study, &auto.by_image);
+    output.auto = auto.by_image;
     reporter.stage(&dir.name, Stage::Measure);
     let marked = measurement::marked(&session, &marks, &mut output.status.problems);
     if study.is_bench {

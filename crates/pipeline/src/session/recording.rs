@@ -36,14 +36,7 @@ impl Recording {
 }
 
 pub(crate) fn read(study: &Study, mcap: &Path, name: &str) -> Result<Recording, Problem> {
-    let refuse = |error: ingest::ReadError| Problem {
-        severity: Severity::Loss,
-        stage: Stage::Signals,
-        code: BAD_MCAP.to_owned(),
-        place: format!("mcap/{name}.mcap"),
-        fact: error.to_string(),
-        remedy: "run again with --force to ingest the card anew".to_owned(),
-    };
+    let refuse = |error| bad_mcap(name, &error);
     let mut reader = SessionReader::open(mcap).map_err(refuse)?;
     let metadata = reader.metadata().clone();
     let images = reader.images().map_err(refuse)?;
@@ -70,6 +63,17 @@ pub(crate) fn read(study: &Study, mcap: &Path, name: &str) -> Result<Recording, 
 
 /// The MCAP file in the work folder is not what was written there.
 pub(crate) const BAD_MCAP: &str = "bad_mcap";
+
+pub(super) fn bad_mcap(session: &str, error: &ingest::ReadError) -> Problem {
+    Problem {
+        severity: Severity::Loss,
+        stage: Stage::Signals,
+        code: BAD_MCAP.to_owned(),
+        place: format!("mcap/{session}.mcap"),
+        fact: error.to_string(),
+        remedy: "run again with --force to ingest the card anew".to_owned(),
+    }
+}
 
 /// Logs the facts; a note where the study asked for the calibration to be applied.
 fn calibration_note(study: &Study, name: &str, calibration: &GravityCalibration) -> Option<Problem> {

@@ -3,7 +3,9 @@
 use model::results::RESULTS_SCHEMA_VERSION;
 use model::{Doubt, Estimate, FrameReason, Level, MeasureError, Method, Pose, Quantity, ResultRow, SizeSigma};
 
+use super::found::height_source;
 use super::measurement::Marked;
+use crate::rims::HeightSource;
 
 /// The row of one size on one image.
 pub(super) fn frame_row(
@@ -61,6 +63,7 @@ pub(super) fn frame_row(
         chi_squared: None,
         chi_squared_degrees: None,
         consistency: None,
+        confidence: marked.found.map(|found| found.confidence),
     };
     match estimate {
         Some(estimate) => with_sigma(row, &estimate.sigma),
@@ -75,6 +78,8 @@ fn flags(marked: &Marked<'_>, error: Option<&MeasureError>) -> String {
     flags.extend((signals.reason != FrameReason::Selected).then(|| signals.reason.code()));
     flags.extend(signals.flags.iter().map(|flag| flag.code()));
     flags.extend((!marked.marks.inside_picture(picture_px)).then_some("mark_outside_picture"));
+    let is_common = height_source(marked) == Some(HeightSource::Common);
+    flags.extend(is_common.then_some("rim_height_common"));
     flags.extend(error.map(MeasureError::code));
     flags.join(",")
 }

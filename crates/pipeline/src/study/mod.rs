@@ -2,6 +2,7 @@
 
 mod csv_file;
 mod error;
+mod marks_source;
 mod objects;
 mod printed;
 mod sessions;
@@ -16,6 +17,7 @@ use model::{Camera, CameraSpec, TableSpec};
 
 use crate::calibrate::CalibrationFile;
 pub use error::StudyError;
+pub use marks_source::{MarksSource, UnknownMarksSource};
 pub use objects::Object;
 pub(crate) use sessions::marks_in;
 pub use sessions::{SessionDir, SessionSpec};

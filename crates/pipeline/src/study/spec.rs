@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use model::{Kind, Method, Note, Quantity, Selection, TableLayout};
 use serde::{Deserialize, Serialize};
 
-use super::UncertaintySpec;
+use super::{MarksSource, UncertaintySpec};
 
 /// The version of study.toml that this program reads.
 pub(crate) const STUDY_SCHEMA_VERSION: u32 = 1;
@@ -59,11 +59,21 @@ fn utc() -> String {
 }
 
 /// `[marks]`.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MarksSpec {
     /// Camera of the pictures that were marked, if those are not the raw ones.
     pub camera: Option<String>,
+    /// Who marks: people, the program, or both.
+    pub source: MarksSource,
+    /// Rims that the program finds with less confidence are left out.
+    pub min_confidence: f64,
+}
+
+impl Default for MarksSpec {
+    fn default() -> Self {
+        Self { camera: None, source: MarksSource::default(), min_confidence: 0.5 }
+    }
 }
 
 /// `[mount]`.

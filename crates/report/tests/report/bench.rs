@@ -51,6 +51,7 @@ pub fn row(object: &str, kind: Kind, quantity: Quantity, predicted_mm: Option<f6
         chi_squared: None,
         chi_squared_degrees: None,
         consistency: None,
+        confidence: None,
     }
 }
 

@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use model::{Doubt, ErrorStats, Fused, Level, Method, Quantity, ResultRow, Share, SizeSigma, fuse as fuse_shares};
 
+use super::found::fused_sigma;
 use super::measurement::{Marked, Measurement};
 use super::row::{doubt_codes, error_pct, with_sigma};
 use crate::study::Study;
@@ -126,6 +127,9 @@ fn row_of(measurements: &[Measurement], group: &[usize], level: Level) -> Option
     let members: Vec<&Measurement> = group.iter().map(|&i| &measurements[i]).collect();
     let shares: Vec<Share> = members.iter().filter_map(|m| share(m)).collect();
     let fused = fuse_shares(&shares)?;
+    let shared = fused.weights.iter().copied().zip(members.iter().map(|m| m.shared_mm));
+    let sigma = fused_sigma(&fused.sigma, shared, members.first()?.inputs.mark_px);
+    let fused = Fused { sigma, ..fused };
     let doubts: BTreeSet<Doubt> =
         members.iter().filter_map(|m| m.estimate.as_ref()).flat_map(|e| e.doubts.iter().copied()).collect();
     let doubts: Vec<Doubt> = doubts.into_iter().collect();
@@ -163,6 +167,7 @@ fn fused_row(rows: &[&ResultRow], fused: &Fused, level: Level, doubts: &[Doubt])
         chi_squared: fused.consistency.map(|c| c.chi_squared),
         chi_squared_degrees: fused.consistency.map(|c| u32::try_from(c.degrees).unwrap_or(u32::MAX)),
         consistency: fused.consistency.map(|c| c.verdict),
+        confidence: mean(|row| row.confidence),
         ..first.clone()
     };
     Some(with_sigma(row, &fused.sigma))

@@ -55,6 +55,7 @@ fn row(rater: &str, image: &str, predicted_mm: Option<f64>, selected: bool) -> R
         chi_squared: None,
         chi_squared_degrees: None,
         consistency: None,
+        confidence: None,
     }
 }
 
@@ -71,6 +72,7 @@ fn measurement(rater: &str, image: &str, predicted_mm: f64, selected: bool) -> M
         estimate: Some(estimate),
         inputs: INPUTS,
         picture: usize::from(image.as_bytes()[0]),
+        shared_mm: 0.0,
         penalty: 1.0,
     }
 }

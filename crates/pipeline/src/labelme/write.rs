@@ -1,0 +1,125 @@
+//! Rims that the program found, as a LabelMe file that a person can open, check and correct.
+
+use model::{Feature, Mark, ObjectMarks};
+use nalgebra::Point2;
+use serde::{Deserialize, Serialize};
+
+use crate::rims::Found;
+
+/// The version of LabelMe whose files these are like.
+const LABELME_VERSION: &str = "5.4.1";
+
+/// A rim that was found in an image of a session, under the name that it has in that session.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct AutoRim {
+    pub object: String,
+    /// Points along it, in pixels of the marks camera's pictures.
+    pub points_px: Vec<[f64; 2]>,
+    pub found: Found,
+}
+
+impl AutoRim {
+    /// The marks that a person would have made.
+    pub fn marks(&self) -> ObjectMarks {
+        let points_px = self.points_px.iter().copied().map(Point2::from).collect();
+        ObjectMarks { object: self.object.clone(), marks: vec![Mark::Outline { feature: Feature::Rim, points_px }] }
+    }
+}
+
+#[derive(Serialize)]
+struct File<'a> {
+    version: &'a str,
+    flags: NoFlags,
+    shapes: Vec<Shape<'a>>,
+    #[serde(rename = "imagePath")]
+    image_path: &'a str,
+    #[serde(rename = "imageData")]
+    image_data: Option<()>,
+    #[serde(rename = "imageHeight")]
+    image_height: u32,
+    #[serde(rename = "imageWidth")]
+    image_width: u32,
+}
+
+#[derive(Serialize)]
+struct NoFlags {}
+
+#[derive(Serialize)]
+struct Shape<'a> {
+    label: String,
+    points: &'a [[f64; 2]],
+    group_id: Option<()>,
+    shape_type: &'static str,
+    flags: NoFlags,
+    aim_batch: Found,
+}
+
+impl<'a> Shape<'a> {
+    fn of(rim: &'a AutoRim) -> Self {
+        Self {
+            label: format!("{}/{}", rim.object, Feature::Rim),
+            points: &rim.points_px,
+            group_id: None,
+            shape_type: "polygon",
+            flags: NoFlags {},
+            aim_batch: rim.found,
+        }
+    }
+}
+
+/// The text of the file. `image_path`: where the picture is, from where the file will be; `picture_px`: its width and height.
+pub(crate) fn text_of(
+    rims: &[AutoRim],
+    image_path: &str,
+    [image_width, image_height]: [u32; 2],
+) -> serde_json::Result<String> {
+    let shapes = rims.iter().map(Shape::of).collect();
+    let (version, flags, image_data) = (LABELME_VERSION, NoFlags {}, None);
+    let file = File { version, flags, shapes, image_path, image_data, image_height, image_width };
+    serde_json::to_string_pretty(&file).map(|text| text + "\n")
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use std::path::Path;
+
+    use model::Kind;
+
+    use super::*;
+    use crate::labelme::parse;
+    use crate::rims::{HeightSource, RimHeight};
+
+    fn rim() -> AutoRim {
+        let height = RimHeight { mm: 61.234_567_890_123_4, sigma_mm: 0.1 + 0.2, source: HeightSource::Foot };
+        let points_px = (0..40).map(|i| [300.123 + f64::from(i).sin() / 3.0, 0.1 * f64::from(i)]).collect();
+        let found = Found { kind: Kind::Bowl, confidence: 1.0 / 3.0, perimeter_px: 512.7, height };
+        AutoRim { object: "auto-2".to_owned(), points_px, found }
+    }
+
+    #[test]
+    fn what_is_written_is_read_to_the_bit() {
+        let text = text_of(&[rim()], "../a.jpg", [640, 480]).unwrap();
+        let marks = parse(text.as_bytes(), Path::new("a.json"), [640, 480]).unwrap();
+        assert!(marks.refused.is_empty(), "{:?}", marks.refused);
+        assert_eq!(marks.objects, [rim().marks()]);
+        assert_eq!(marks.found.into_iter().collect::<Vec<_>>(), [("auto-2".to_owned(), rim().found)]);
+    }
+
+    #[test]
+    fn numbers_that_nothing_could_have_found_are_refused() {
+        let text = text_of(&[rim()], "../a.jpg", [640, 480]).unwrap();
+        for (from, to) in [
+            ("\"perimeter_px\": 512.7", "\"perimeter_px\": 0"),
+            ("\"sigma_mm\": 0.3", "\"sigma_mm\": -0.3"),
+            ("\"confidence\": 0.3", "\"confidence\": 1.3"),
+            ("\"bowl\"", "\"spoon\""),
+        ] {
+            let changed = text.replace(from, to);
+            assert_ne!(changed, text);
+            let marks = parse(changed.as_bytes(), Path::new("a.json"), [640, 480]).unwrap();
+            assert_eq!((marks.objects.len(), marks.refused.len()), (0, 1), "{to}");
+            assert!(marks.refused[0].to_string().contains("remove the key"), "{}", marks.refused[0]);
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! What is known of a rim that was found, besides its points; it goes with them wherever they go.
+
+use model::Kind;
+use serde::{Deserialize, Serialize};
+
+use super::{Rim, RimHeight};
+
+/// What finding a rim told of it. A file of marks keeps it beside the points, so that a rim measures the same when it is read
+/// from there.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Found {
+    /// What it looks like.
+    pub kind: Kind,
+    /// From 0 to 1: how sure it is that this is the rim of a container.
+    pub confidence: f64,
+    /// Length of the rim as it appears.
+    pub perimeter_px: f64,
+    /// Its height if it is a bowl's.
+    pub height: RimHeight,
+}
+
+impl Rim {
+    /// What is known of it besides its points.
+    #[must_use]
+    pub fn found(&self) -> Found {
+        let Self { kind, confidence, perimeter_px, height, .. } = *self;
+        Found { kind, confidence, perimeter_px, height }
+    }
+}
+
+impl Found {
+    /// What is wrong with its numbers, if anything: they may come from a file that somebody edited.
+    #[must_use]
+    pub fn fault(&self) -> Option<&'static str> {
+        let not_negative = |number: f64| number.is_finite() && number >= 0.0;
+        if !(0.0..=1.0).contains(&self.confidence) {
+            Some("confidence: expected 0 to 1")
+        } else if !(self.perimeter_px.is_finite() && self.perimeter_px > 0.0) {
+            Some("perimeter_px: expected a positive number")
+        } else if !(not_negative(self.height.mm) && not_negative(self.height.sigma_mm)) {
+            Some("height: expected zero or positive numbers")
+        } else {
+            None
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Rims found in the selected images of a session, named so that one container has one name.
+
+mod link;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use ingest::{ByteBudget, Picture, SessionReader};
+use model::{Camera, Container, FrameReason, Method, Problem, Quantity, Severity, Shape, SizeSigma, Stage, View};
+use nalgebra::Point2;
+
+use super::measurement::inputs_of;
+use super::recording::bad_mcap;
+use super::{Frame, Prepared, Recording, stem_of};
+use crate::calibrate::corrected_view;
+use crate::labelme::{self, AutoRim};
+use crate::rims::{self, Found, Rim, find_rims};
+use crate::stop::Stop;
+use crate::study::{SessionDir, Study, marks_in};
+use link::{Sighting, names};
+
+/// Rater of what the program found itself.
+pub(crate) const AUTO: &str = "auto";
+/// What the names of containers that it found begin with; a number follows.
+const NAME: &str = "auto-";
+
+/// What a search gave.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct AutoMarks {
+    /// Rims by image (file on the card), the likeliest first.
+    pub by_image: BTreeMap<String, Vec<AutoRim>>,
+    /// Pictures that could not be searched.
+    pub problems: Vec<Problem>,
+}
+
+/// Why a search ended before its end.
+pub(crate) enum SearchError {
+    /// Somebody wished so.
+    Stopped,
+    /// The recording.
+    Recording(Box<Problem>),
+}
+
+/// What a search works with.
+pub(crate) struct Search<'a> {
+    pub study: &'a Study,
+    pub dir: &'a SessionDir,
+    pub prepared: &'a Prepared,
+    pub mcap: &'a Path,
+    pub budget: &'a ByteBudget,
+    pub stop: &'a Stop,
+}
+
+/// A rim with what it is linked by.
+struct Seen {
+    image: String,
+    rim: AutoRim,
+    sighting: Sighting,
+}
+
+impl Search<'_> {
+    /// Looks for rims in the selected images, one picture at a time; in the order of time, so that nothing depends on who is
+    /// at work beside it. Images for which rater `auto` has a file are left out where files are read.
+    pub fn run(&self, recording: &Recording) -> Result<AutoMarks, SearchError> {
+        let source = self.study.spec.marks.source;
+        let mut auto = AutoMarks::default();
+        if !source.searches() {
+            return Ok(auto);
+        }
+        let (checked, taken) = if source.reads() { self.checked() } else { Default::default() };
+        let refuse = |error| SearchError::Recording(Box::new(bad_mcap(&self.dir.name, &error)));
+        let mut reader = SessionReader::open(self.mcap).map_err(refuse)?;
+        let mut seen = Vec::new();
+        for (number, frame) in super::frames(self.study, self.prepared, recording).iter().enumerate() {
+            if frame.signals.reason != FrameReason::Selected || checked.contains(&stem_of(&frame.image.file)) {
+                continue;
+            }
+            if self.stop.is_set() {
+                return Err(SearchError::Stopped);
+            }
+            let room = frame.image.bytes
+                + BYTES_PER_PIXEL * u64::from(frame.image.width_px) * u64::from(frame.image.height_px);
+            let _taken = self.budget.take(room);
+            let bytes = reader.image_bytes(&frame.image.file).map_err(refuse)?;
+            match self.in_picture(number, frame, &bytes) {
+                Ok(found) => seen.extend(found),
+                Err(fact) => auto.problems.push(self.not_searched(frame, fact)),
+            }
+        }
+        let names = names(&seen.iter().map(|seen| seen.sighting).collect::<Vec<_>>(), &taken);
+        for (Seen { image, rim, .. }, number) in seen.into_iter().zip(names) {
+            let rim = AutoRim { object: format!("{NAME}{number}"), ..rim };
+            auto.by_image.entry(image).or_default().push(rim);
+        }
+        Ok(auto)
+    }
+
+    /// Names of images that rater `auto` has files for, and numbers that objects have there.
+    fn checked(&self) -> (BTreeSet<String>, BTreeSet<u32>) {
+        let files = self.dir.marks.get(AUTO).and_then(|dir| marks_in(dir).ok()).unwrap_or_default();
+        let picture_px = self.prepared.marks_camera.1.size_px();
+        let mut taken = BTreeSet::new();
+        for file in &files {
+            // What is wrong with a file is told where its marks are read.
+            let marks = labelme::read_bytes(file).and_then(|bytes| labelme::parse(&bytes, file, picture_px));
+            let objects = marks.map(|marks| marks.objects).unwrap_or_default();
+            taken.extend(objects.iter().filter_map(|marks| marks.object.strip_prefix(NAME)?.parse::<u32>().ok()));
+        }
+        (files.iter().map(|file| stem_of(&file.to_string_lossy())).collect(), taken)
+    }
+
+    fn in_picture(&self, number: usize, frame: &Frame, bytes: &[u8]) -> Result<Vec<Seen>, String> {
+        let camera = self.prepared.source.camera_spec.camera().map_err(|error| error.to_string())?;
+        let Some(pose) = frame.signals.pose_for(Method::Ray) else { return Ok(Vec::new()) };
+        let calibration = self.study.calibration.as_ref();
+        let Some(view) = corrected_view(calibration, Method::Ray, View::new(camera, pose)) else {
+            return Ok(Vec::new());
+        };
+        let picture = Picture::decode(bytes).map_err(|error| error.to_string())?;
+        let rims = find_rims(&picture, &view).map_err(|error| error.to_string())?;
+        let sure = rims.iter().filter(|rim| rim.confidence >= self.study.spec.marks.min_confidence);
+        Ok(sure.filter_map(|rim| self.seen(number, frame, &view, rim)).collect())
+    }
+
+    /// None of a rim that has no size, or that the marks camera would not show.
+    fn seen(&self, number: usize, frame: &Frame, view: &View, rim: &Rim) -> Option<Seen> {
+        let (camera, marks_camera) = (&self.prepared.source.camera_spec.camera().ok()?, &self.prepared.marks_camera.1);
+        let points_px: Vec<[f64; 2]> =
+            rim.points_px.iter().filter_map(|point| in_marked_picture(camera, marks_camera, *point)).collect();
+        let rim_px = marks_camera.focal_px()[0] / camera.focal_px()[0] * rim.perimeter_px;
+        let found = Found { perimeter_px: rim_px, ..rim.found() };
+        let auto = AutoRim { object: String::new(), points_px, found };
+        let container = container_of(&found);
+        let sizes = rim.sizes(view, Method::Ray, &container, &inputs_of(self.study, frame));
+        let diameter = sizes.into_iter().find(|(quantity, _)| *quantity == Quantity::Diameter)?.1.ok()?;
+        let lower = 1.0 - rim.height_as(&container).mm / view.pose().camera_height_mm();
+        let sighting = Sighting {
+            image: number,
+            time: frame.image.time,
+            kind: rim.kind,
+            diameter_mm: diameter.measured.predicted_mm,
+            sigma_mm: sigma_within_session_mm(&diameter.sigma),
+            at_mm: rim.on_table_mm.0.map(|c| c * lower),
+        };
+        let image = frame.image.file.clone();
+        (auto.points_px.len() >= rims::LEAST_POINTS).then_some(Seen { image, rim: auto, sighting })
+    }
+
+    fn not_searched(&self, frame: &Frame, fact: String) -> Problem {
+        Problem {
+            severity: Severity::Loss,
+            stage: Stage::Marks,
+            code: "picture_not_searched".to_owned(),
+            place: format!("cards/{}/{}", self.dir.name, frame.image.file),
+            fact,
+            remedy: "look at the picture; mark it by hand, or copy it from the card again".to_owned(),
+        }
+    }
+}
+
+/// Uncertainty of a size against others of its session: a wrong angle or range makes all of them wrong alike, but for the part
+/// that differs between views.
+fn sigma_within_session_mm(sigma: &SizeSigma) -> f64 {
+    let own = (sigma.total_mm.powi(2) - sigma.common_mm.powi(2)).max(0.0).sqrt();
+    own.hypot(VIEWS_DIFFER * sigma.common_mm)
+}
+
+/// Part of the common uncertainty that is left between two views of the same thing.
+const VIEWS_DIFFER: f64 = 0.3;
+
+/// A decoded picture has three bytes per pixel; edges are found in a fourth.
+const BYTES_PER_PIXEL: u64 = 4;
+
+/// What is known of a container that is in no list: what it looks like.
+pub(super) fn container_of(found: &Found) -> Container {
+    Container { kind: found.kind, shape: Shape::Circle, rim_height_mm: None, wall: None }
+}
+
+/// Where a point of the recorded picture is in the pictures that people mark, to a thousandth of a pixel: far below what an
+/// edge tells, and short in files.
+fn in_marked_picture(camera: &Camera, marks_camera: &Camera, point: Point2<f64>) -> Option<[f64; 2]> {
+    let point =
+        if camera == marks_camera { point } else { marks_camera.pixel_of(&camera.ray_through(point).ok()?).ok()? };
+    Some([point.x, point.y].map(|c| (c * 1e3).round() / 1e3))
+}

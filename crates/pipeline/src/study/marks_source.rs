@@ -1,0 +1,66 @@
+//! Who marks.
+
+use std::fmt::{Display, Formatter};
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+/// Where a study's marks come from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MarksSource {
+    /// The study's files of marks; no picture is decoded.
+    #[default]
+    Manual,
+    /// The program, which finds rims in the selected images; files of marks are not read.
+    Auto,
+    /// Both. Where rater `auto` has a file for an image, the file counts, and the image is not searched.
+    Both,
+}
+
+impl MarksSource {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Manual, Self::Auto, Self::Both];
+
+    /// Its name in study.toml and on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Manual => "manual",
+            Self::Auto => "auto",
+            Self::Both => "both",
+        }
+    }
+
+    /// Whether files of marks are read.
+    #[must_use]
+    pub fn reads(self) -> bool {
+        self != Self::Auto
+    }
+
+    /// Whether rims are looked for in pictures.
+    #[must_use]
+    pub fn searches(self) -> bool {
+        self != Self::Manual
+    }
+}
+
+impl Display for MarksSource {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Not the name of a [`MarksSource`].
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("'{0}' is not one of: manual, auto, both")]
+pub struct UnknownMarksSource(String);
+
+impl FromStr for MarksSource {
+    type Err = UnknownMarksSource;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let named = Self::ALL.into_iter().find(|source| source.name() == text);
+        named.ok_or_else(|| UnknownMarksSource(text.to_owned()))
+    }
+}

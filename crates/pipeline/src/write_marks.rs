@@ -1,0 +1,173 @@
+//! Rims that a run found, as files that a person can check and correct.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use model::Stage;
+
+use crate::labelme::{AutoRim, text_of};
+use crate::session::{AUTO, Prepared, SessionOutput, stem_of};
+use crate::study::{SessionDir, Study};
+use crate::work::{WorkError, WorkFolder};
+
+/// What was written.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct MarksWritten {
+    /// Files with rims, as they are now in the folder.
+    pub files: usize,
+    /// Files that were there with other content: somebody's corrections, or those of another run. They were left alone.
+    pub left: usize,
+}
+
+/// Why they were not.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteMarksError {
+    /// The work folder.
+    #[error(transparent)]
+    Work(#[from] WorkError),
+    /// What is kept there.
+    #[error("session '{session}': what was kept of it cannot be read: {source}; run with --force")]
+    Kept {
+        /// The session.
+        session: String,
+        /// Why.
+        source: serde_json::Error,
+    },
+    /// A file.
+    #[error("cannot write the marks: {source}: {}", path.display())]
+    File {
+        /// The file or folder.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+}
+
+/// Writes what the last run of `study` in `work_dir` found without marks: `folder/auto/SESSION/IMAGE.json`, LabelMe files as in
+/// `marks/` of a study. A file that is there and differs is left alone.
+///
+/// # Errors
+/// [`WriteMarksError`]; what was written until then stays.
+pub fn write_marks(
+    study: &Study,
+    work_dir: &Path,
+    program: &str,
+    folder: &Path,
+) -> Result<MarksWritten, WriteMarksError> {
+    let work = WorkFolder::open(work_dir, program)?;
+    let mut written = MarksWritten::default();
+    for dir in &study.sessions {
+        let Some(text) = work.state.output(&dir.name, Stage::Measure)? else { continue };
+        let refuse = |source| WriteMarksError::Kept { session: dir.name.clone(), source };
+        let output: SessionOutput = serde_json::from_str(&text).map_err(refuse)?;
+        if let (false, Ok(prepared)) = (output.auto.is_empty(), Prepared::new(study, dir, program)) {
+            let session = Writer { dir, prepared: &prepared, folder: folder.join(AUTO).join(&dir.name) };
+            session.write(&output.auto, &mut written)?;
+        }
+    }
+    Ok(written)
+}
+
+/// Writes the files of one session.
+struct Writer<'a> {
+    dir: &'a SessionDir,
+    prepared: &'a Prepared,
+    folder: PathBuf,
+}
+
+impl Writer<'_> {
+    fn write(&self, auto: &BTreeMap<String, Vec<AutoRim>>, written: &mut MarksWritten) -> Result<(), WriteMarksError> {
+        std::fs::create_dir_all(&self.folder).map_err(|source| failed(&self.folder, source))?;
+        let mut by_stem: BTreeMap<String, Vec<&String>> = BTreeMap::new();
+        for image in auto.keys() {
+            by_stem.entry(stem_of(image)).or_default().push(image);
+        }
+        for (stem, images) in by_stem {
+            let &[image] = images.as_slice() else {
+                let session = &self.dir.name;
+                tracing::warn!(session, stem, "{} images have this name, so none of them gets a file", images.len());
+                continue;
+            };
+            let rims = auto.get(image).map(Vec::as_slice).unwrap_or_default();
+            let picture_px = self.prepared.marks_camera.1.size_px();
+            let text = text_of(rims, &self.picture(image), picture_px).map_err(io::Error::from);
+            let path = self.folder.join(format!("{stem}.json"));
+            let done =
+                text.and_then(|text| write_unless_other(&path, &text)).map_err(|source| failed(&path, source))?;
+            *(if done { &mut written.files } else { &mut written.left }) += 1;
+        }
+        Ok(())
+    }
+
+    /// Where LabelMe finds the picture, from the folder of the marks: on the card; beside the marks where people mark other
+    /// pictures than those of the card.
+    fn picture(&self, image: &str) -> String {
+        let beside = || image.rsplit('/').next().unwrap_or(image).to_owned();
+        let is_recorded =
+            self.prepared.source.camera_spec.camera().is_ok_and(|camera| camera == self.prepared.marks_camera.1);
+        let picture = self.dir.card.as_ref().filter(|_| is_recorded).map(|card| card.join(image));
+        picture.and_then(|picture| relative_path(&self.folder, &picture)).unwrap_or_else(beside)
+    }
+}
+
+fn failed(path: &Path, source: io::Error) -> WriteMarksError {
+    WriteMarksError::File { path: path.to_owned(), source }
+}
+
+/// Whether the file now holds this text; false where it held another.
+fn write_unless_other(path: &Path, text: &str) -> io::Result<bool> {
+    match std::fs::read(path) {
+        Ok(there) => return Ok(there == text.as_bytes()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+        Err(error) => return Err(error),
+    }
+    let partial = path.with_extension("json.partial"); // half a file would be taken for marks
+    std::fs::write(&partial, text)?;
+    std::fs::rename(&partial, path)?;
+    Ok(true)
+}
+
+/// The way from a folder to a file, with `/`; none where there is none (another drive), or the file is not there.
+fn relative_path(folder: &Path, file: &Path) -> Option<String> {
+    let (folder, file) = (folder.canonicalize().ok()?, file.canonicalize().ok()?);
+    let shared = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
+    if shared == 0 {
+        return None;
+    }
+    let up = folder.components().skip(shared).map(|_| "..".to_owned());
+    let down = file
+        .components()
+        .skip(shared)
+        .map(|component: Component<'_>| component.as_os_str().to_string_lossy().into_owned());
+    Some(up.chain(down).collect::<Vec<_>>().join("/"))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+
+    #[test]
+    fn a_file_that_differs_is_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.json");
+        assert!(write_unless_other(&path, "mine").unwrap());
+        assert!(write_unless_other(&path, "mine").unwrap(), "as it would be written");
+        assert!(!write_unless_other(&path, "other").unwrap());
+        assert_eq!(std::fs::read(&path).unwrap(), b"mine");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn the_way_to_a_picture() {
+        let folder = tempfile::tempdir().unwrap();
+        let (marks, card) = (folder.path().join("marks/auto/S1"), folder.path().join("cards/S1"));
+        std::fs::create_dir_all(&marks).unwrap();
+        std::fs::create_dir_all(&card).unwrap();
+        std::fs::write(card.join("a b.JPG"), b"").unwrap();
+        let way = relative_path(&marks, &card.join("a b.JPG"));
+        assert_eq!(way.as_deref(), Some("../../../cards/S1/a b.JPG"));
+        assert_eq!(relative_path(&marks, &card.join("b.JPG")), None, "not there");
+    }
+}
