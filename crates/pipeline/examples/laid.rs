@@ -50,8 +50,10 @@ struct Found {
 /// What was found in one picture.
 struct Report {
     cases: Vec<Case>,
-    /// Confidence of each rim, and whether it is one of a container.
+    /// Confidence of each rim that is not a drinking glass's, and whether it is one of a container.
     rims: Vec<(f64, bool)>,
+    /// Drinking glasses taken for containers.
+    glasses: usize,
     /// No container at all.
     is_bare: bool,
 }
@@ -63,10 +65,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let width = u32::try_from(number(4, 960)?)?;
     let camera = laid::camera([width, width * 3 / 4])?;
     let mut out = std::io::stdout().lock();
-    let bench: Vec<Frame> = (0..benches)
-        .flat_map(|at| laid::bench(seed * 1000 + at, width))
-        .flat_map(|plan| plan.frames)
-        .collect();
+    let bench: Vec<Frame> =
+        (0..benches).flat_map(|at| laid::bench(seed * 1000 + at, width)).flat_map(|plan| plan.frames).collect();
     let worn = laid::worn(seed, width, usize::try_from(sessions)?, usize::try_from(images)?);
     let worn: Vec<Frame> = worn.into_iter().flat_map(|plan| plan.frames).collect();
     let mut rims = Vec::new();
@@ -95,7 +95,11 @@ fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
     let picture = Picture::decode(&jpeg).map_err(|e| e.to_string())?;
     let rims = find_rims(&picture, view).map_err(|e| e.to_string())?;
     let truths = frame.truths(view);
-    let judged = rims.iter().map(|rim| (rim.confidence, truths.iter().any(|truth| is_of(rim, truth, view)))).collect();
+    let (others, glasses): (Vec<&Rim>, Vec<&Rim>) =
+        rims.iter().partition(|rim| truths.iter().any(|t| is_of(rim, t, view)) || !is_of_glass(rim, frame, view));
+    let glasses = glasses.iter().filter(|rim| rim.confidence >= LEAST_CONFIDENCE).count();
+    let judged =
+        others.iter().map(|rim| (rim.confidence, truths.iter().any(|truth| is_of(rim, truth, view)))).collect();
     let cases = truths.iter().filter(|truth| truth.kind != Kind::Box).map(|truth| {
         let sure = rims.iter().filter(|rim| rim.confidence >= LEAST_CONFIDENCE && is_of(rim, truth, view));
         let best = sure.max_by(|a, b| a.confidence.total_cmp(&b.confidence));
@@ -107,7 +111,22 @@ fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
             found: best.and_then(|rim| found(rim, truth, view)),
         }
     });
-    Ok(Report { cases: cases.collect(), rims: judged, is_bare: truths.is_empty() })
+    Ok(Report { cases: cases.collect(), rims: judged, glasses, is_bare: truths.is_empty() })
+}
+
+/// Whether a rim is a level circle of a drinking glass: its rim, its foot, or what it holds.
+fn is_of_glass(rim: &Rim, frame: &Frame, view: &View) -> bool {
+    let camera_mm = view.pose().camera_height_mm();
+    let ([x, y], radius) = rim.on_table_mm;
+    frame.vessels.iter().any(|vessel| {
+        let at = frame.in_view(vessel.at_mm);
+        [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().any(|share| {
+            let shrink = 1.0 - share * vessel.height_mm / camera_mm;
+            let wide = vessel.diameters_mm[0] + share * (vessel.diameters_mm[1] - vessel.diameters_mm[0]);
+            let apart = (Point2::new(x * shrink, y * shrink) - at).norm();
+            apart < 0.35 * wide && (2.0 * radius * shrink / wide - 1.0).abs() < 0.3
+        })
+    })
 }
 
 /// Whether a rim is that of a container, its outer edge or the inner one.
@@ -160,11 +179,12 @@ fn summary(name: &str, reports: &[Report]) -> String {
     let false_in = |report: &&Report| report.rims.iter().any(|(c, right)| *c >= LEAST_CONFIDENCE && !right);
     let bare: Vec<&Report> = reports.iter().filter(|report| report.is_bare).collect();
     text += &format!(
-        "  false rims: in {} of {} pictures without a container, in {} of {} with\n",
+        "  false rims: in {} of {} pictures without a container, in {} of {} with; and of drinking glasses: {}\n",
         bare.iter().filter(|r| false_in(r)).count(),
         bare.len(),
         reports.iter().filter(|r| !r.is_bare).filter(false_in).count(),
         reports.len() - bare.len(),
+        reports.iter().map(|r| r.glasses).sum::<usize>(),
     );
     text
 }
@@ -198,7 +218,8 @@ fn quantile(values: &[f64], p: f64) -> Option<f64> {
 fn reliability(rims: &[(f64, bool)]) -> String {
     let bands = [0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 1.01];
     let rows = bands.windows(2).map(|band| {
-        let inside: Vec<bool> = rims.iter().filter(|(c, _)| (band[0]..band[1]).contains(c)).map(|(_, right)| *right).collect();
+        let inside: Vec<bool> =
+            rims.iter().filter(|(c, _)| (band[0]..band[1]).contains(c)).map(|(_, right)| *right).collect();
         let right = inside.iter().filter(|right| **right).count();
         format!("  {:.2} to {:.2}: {right} of {} right\n", band[0], band[1].min(1.0), inside.len())
     });

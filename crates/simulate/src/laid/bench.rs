@@ -54,11 +54,12 @@ fn frame(random: &mut ChaCha8Rng, width_px: u32, at: usize, head: HeadPose) -> F
     let turn_rad = if ware.kind == model::Kind::Box { random.random_range(-0.2..0.2) } else { 0.0 };
     let glaze = table::glaze(random, &ware);
     world.bodies.extend(ware.bodies(at_mm, turn_rad, &glaze));
-    things::beside(random, &mut world, at_mm, 0.5 * ware.diameter_mm, 2);
+    let vessels = things::beside(random, &mut world, at_mm, 0.5 * ware.diameter_mm, 2);
     Frame {
         time_s: FIRST_S + PERIOD_S * at as f64,
         world,
         placed: vec![Placed { object, ware, at_mm, turn_rad }],
+        vessels,
         head,
         stand: (Point2::origin(), 0.0),
         exposure: table::exposure(random, width_px, 0.0),

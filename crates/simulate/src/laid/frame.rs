@@ -6,6 +6,7 @@ use model::{Camera, Kind, Pose, Quantity, View};
 use nalgebra::{Point2, Point3, Rotation2, Vector2};
 use serde::Serialize;
 
+use super::things::Vessel;
 use super::ware::Ware;
 use crate::error::SimulateError;
 use crate::render::Picture;
@@ -45,6 +46,8 @@ pub struct Frame {
     pub world: World,
     /// Its containers.
     pub placed: Vec<Placed>,
+    /// Drinking glasses beside them.
+    pub vessels: Vec<Vessel>,
     /// Pose of the camera.
     pub head: HeadPose,
     /// Where the camera stands above the table, and its turn about Z.
@@ -111,7 +114,8 @@ impl Frame {
     }
 
     /// From the world's frame to that of the view.
-    fn in_view(&self, point: Point2<f64>) -> Point2<f64> {
+    #[must_use]
+    pub fn in_view(&self, point: Point2<f64>) -> Point2<f64> {
         Rotation2::new(-self.stand.1) * Point2::from(point - self.stand.0)
     }
 

@@ -20,6 +20,7 @@ mod write;
 pub use bench::bench;
 pub use frame::{Frame, Placed, Truth};
 pub use plan::Plan;
+pub use things::Vessel;
 pub use ware::{Wall, Ware};
 pub use worn::worn;
 pub use write::{LaidOptions, LaidPreset, camera, write};

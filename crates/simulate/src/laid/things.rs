@@ -8,10 +8,21 @@ use rand::Rng;
 use super::ware::Ware;
 use crate::world::{Body, Form, Material, Rgb, Texture, Turned};
 
+/// A drinking glass: not one of the containers, but round, and higher than wide.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vessel {
+    /// Where its axis meets the table.
+    pub at_mm: Point2<f64>,
+    /// Of foot and rim.
+    pub diameters_mm: [f64; 2],
+    /// From the table to its rim.
+    pub height_mm: f64,
+}
+
 const STEEL: Rgb = [0.5, 0.5, 0.52];
 
 /// A drinking glass with water, seen through.
-pub(super) fn glass(random: &mut impl Rng, at: Point2<f64>) -> Vec<Body> {
+fn glass(random: &mut impl Rng, at: Point2<f64>) -> (Vec<Body>, Vessel) {
     let (top, foot) = (random.random_range(30.0..42.0), random.random_range(24.0..30.0));
     let height = random.random_range(85.0..140.0);
     let clear = |colour: Rgb| Material { texture: Texture::Plain(colour), gloss: 0.06, clear: 0.9, glows: false };
@@ -20,10 +31,11 @@ pub(super) fn glass(random: &mut impl Rng, at: Point2<f64>) -> Vec<Body> {
     let drink = random.random_range(0.3..0.8);
     let [z, r] = [6.0 + drink * (height - 6.0), foot - 2.5 + drink * (top - foot)];
     let colour = if random.random_bool(0.5) { [0.97, 0.99, 1.0] } else { [0.9, 0.55, 0.15] };
-    vec![
+    let bodies = vec![
         Body { form: Form::Turned(outside), material: clear([0.96, 0.98, 0.98]) },
         Body { form: Form::Turned(Turned::new(at, &[[foot - 2.5, 6.5], [r, z], [0.0, z]])), material: clear(colour) },
-    ]
+    ];
+    (bodies, Vessel { at_mm: at, diameters_mm: [2.0 * foot, 2.0 * top], height_mm: height })
 }
 
 /// Knife, fork or spoon: a handle that lies on what is below it, with a blade, prongs or a hollow.
@@ -197,7 +209,8 @@ pub(super) fn beside(
     at: Point2<f64>,
     radius: f64,
     most: usize,
-) {
+) -> Vec<Vessel> {
+    let mut vessels = Vec::new();
     let number = random.random_range(0..=most);
     let first = random.random_range(0.0..TAU);
     for place in 0..number {
@@ -205,7 +218,11 @@ pub(super) fn beside(
         let angle = first + TAU * (place as f64 + random.random_range(-0.2..0.2)) / number as f64;
         let away = |clear: f64| at + nalgebra::Vector2::new(angle.cos(), angle.sin()) * (radius + clear);
         let bodies = match random.random_range(0..5) {
-            0 => glass(random, away(70.0)),
+            0 => {
+                let (bodies, vessel) = glass(random, away(70.0));
+                vessels.push(vessel);
+                bodies
+            }
             1 => napkin(random, away(125.0)),
             2 => telephone(random, away(105.0)),
             _ => {
@@ -218,4 +235,5 @@ pub(super) fn beside(
         };
         world.bodies.extend(bodies);
     }
+    vessels
 }

@@ -7,6 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use super::catalogue::WARES;
 use super::frame::{Frame, Placed};
 use super::plan::{Plan, Use, random};
+use super::things::Vessel;
 use super::{sway, table, things};
 use crate::sensors::{HeadPose, Motion};
 use crate::world::{Rgb, World};
@@ -79,6 +80,7 @@ struct Meal {
     empty: World,
     laid: World,
     placed: Vec<Placed>,
+    vessels: Vec<Vessel>,
     skin: Rgb,
 }
 
@@ -95,16 +97,16 @@ impl Meal {
             placed.push(place(second, placed[0].at_mm + nalgebra::Vector2::new(side * apart, 40.0)));
         }
         let radius = 0.5 * placed[0].ware.diameter_mm;
-        let mut empty = bare;
+        let (mut empty, mut vessels) = (bare, Vec::new());
         if placed.len() == 1 {
-            things::beside(random, &mut empty, placed[0].at_mm, radius, 3);
+            vessels = things::beside(random, &mut empty, placed[0].at_mm, radius, 3);
         }
         let mut laid = empty.clone();
         for each in &placed {
             let glaze = table::glaze(random, &each.ware);
             laid.bodies.extend(each.ware.bodies(each.at_mm, each.turn_rad, &glaze));
         }
-        Self { empty, laid, placed, skin: SKINS[random.random_range(0..SKINS.len())] }
+        Self { empty, laid, placed, vessels, skin: SKINS[random.random_range(0..SKINS.len())] }
     }
 
     #[expect(clippy::cast_precision_loss, reason = "some thousand images")]
@@ -124,6 +126,7 @@ impl Meal {
             time_s: time_s(at),
             world,
             placed: if is_laid { self.placed.clone() } else { Vec::new() },
+            vessels: self.vessels.clone(),
             head,
             stand: (stand, random.random_range(-0.25..0.25)),
             exposure: table::exposure(random, width_px, 0.0012),
