@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Prints tables. With AIM_BATCH_LAID_PICTURES=DIR every picture is kept there as JPEG. With AIM_BATCH_LAID_CSV=FILE, one
-//! line per rim found: confidence, right or not.
+//! line per rim found, drinking glasses' left out: confidence, right or not.
 
 use std::error::Error;
 use std::io::Write as _;
@@ -46,6 +46,9 @@ struct Found {
     height: f64,
     from_foot: bool,
 }
+
+/// Which cases a line of a table counts.
+type Keep = fn(&Case) -> bool;
 
 /// What was found in one picture.
 struct Report {
@@ -159,12 +162,12 @@ fn found(rim: &Rim, truth: &Truth, view: &View) -> Option<Found> {
 fn summary(name: &str, reports: &[Report]) -> String {
     let cases: Vec<&Case> = reports.iter().flat_map(|report| &report.cases).filter(|case| case.in_view).collect();
     let mut text = format!("{name}: {} pictures, {} round containers in view\n", reports.len(), cases.len());
-    let rows: [(&str, &dyn Fn(&Case) -> bool); 5] = [
-        ("all", &|_| true),
-        ("pitch in the window", &|c| (WINDOW_DEG.0..WINDOW_DEG.1).contains(&c.pitch_deg)),
-        ("at 55 degrees (50 to 60)", &|c| (50.0..60.0).contains(&c.pitch_deg)),
-        ("plates", &|c| c.kind == Kind::Plate),
-        ("bowls", &|c| c.kind == Kind::Bowl),
+    let rows: [(&str, Keep); 5] = [
+        ("all", |_| true),
+        ("pitch in the window", |c| (WINDOW_DEG.0..WINDOW_DEG.1).contains(&c.pitch_deg)),
+        ("at 55 degrees (50 to 60)", |c| (50.0..60.0).contains(&c.pitch_deg)),
+        ("plates", |c| c.kind == Kind::Plate),
+        ("bowls", |c| c.kind == Kind::Bowl),
     ];
     for (label, keep) in rows {
         let kept: Vec<&&Case> = cases.iter().filter(|case| keep(case)).collect();
@@ -196,12 +199,15 @@ fn line(label: &str, cases: &[&&Case]) -> String {
         _ => "-".to_owned(),
     };
     let of = |size: &dyn Fn(&Found) -> f64| quantiles(found.iter().map(|f| size(f).abs()).collect());
+    let diameters: Vec<f64> = found.iter().map(|f| f.diameter).collect();
+    let signed = quantile(&diameters, 0.5).map_or_else(|| "-".to_owned(), |median| format!("{:+.2} %", 100.0 * median));
     let feet = found.iter().filter(|f| f.from_foot).map(|f| f.height.abs()).collect();
     format!(
-        "  {label:26} found {:3} of {:3}  |diameter| median / q95: {} (level given), {} (nothing given)  |height|: {}\n",
+        "  {label:26} found {:3} of {:3}  |diameter| median / q95: {} (level given; signed median {}), {} (nothing given)  |height|: {}\n",
         found.len(),
         cases.len(),
         of(&|f| f.diameter),
+        signed,
         of(&|f| f.diameter_alone),
         quantiles(feet),
     )

@@ -1,4 +1,4 @@
-//! The presets `bench` and `worn`: laid tables as hard as real ones, seen by sensors that err as real ones do.
+//! The presets `bench` and `worn`: laid tables as hard as real ones, seen by sensors that err as real ones do. Truth beside them.
 //!
 //! [`bench()`] and [`worn()`] plan sessions: every [`Frame`] is a world, a pose and an exposure, and can be photographed and
 //! asked for the truth without any file. [`write()`] makes a study of them. Everything follows from the seed alone, for any
