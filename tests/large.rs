@@ -125,5 +125,9 @@ fn options_that_do_not_fit_are_refused() {
     refused("large", &["--damage", "101"], "0 to 100 per cent");
     refused("large", &["--sessions", "0"], "sessions 0: expected 1 to 100000");
     refused("large", &["--no-pictures"], "belongs to the preset published-bench");
-    refused("published-bench", &["--sessions", "5"], "belong to the preset large");
+    refused("published-bench", &["--sessions", "5"], "belong to other presets");
+    refused("bench", &["--sessions", "5"], "do not fit the preset bench");
+    refused("bench", &["--image-size", "32x32"], "--image-size 32x32: expected 64 to 8192 px each way");
+    refused("worn", &["--damage", "5"], "belongs to the preset large");
+    refused("worn", &["--images", "0"], "--images 0: expected 1 to 2000");
 }

@@ -345,20 +345,20 @@ pub struct SimulateArgs {
     pub large: LargeArgs,
 }
 
-/// Options of the preset `large`, and of no other.
+/// Options of the presets `large`, `worn` and `bench`: each takes some of them.
 #[derive(Debug, Default, PartialEq, clap::Args)]
-#[command(next_help_heading = "Preset large")]
+#[command(next_help_heading = "Presets large, worn and bench")]
 pub struct LargeArgs {
-    /// Sessions; default: 300
+    /// Sessions; default: 300 (large), 4 (worn)
     #[arg(long, value_name = "N")]
     pub sessions: Option<u32>,
-    /// Images of each session; default: 24
+    /// Images of each session; default: 24 (large, worn)
     #[arg(long, value_name = "N")]
     pub images: Option<u32>,
-    /// Size of the pictures; default: 320x240
+    /// Size of the pictures; default: 320x240 (large), 1296x972 (worn, bench)
     #[arg(long, value_name = "WxH", value_parser = parse_size_px)]
     pub image_size: Option<[u32; 2]>,
-    /// Per cent of the sessions that are damaged, each in another way; default: 0
+    /// Per cent of the sessions that are damaged, each in another way; default: 0 (large)
     #[arg(long, value_name = "PCT")]
     pub damage: Option<f64>,
 }
@@ -377,6 +377,10 @@ pub enum Preset {
     PublishedBench,
     /// Many sessions with small pictures, for load tests; some of them damaged, if asked for
     Large,
+    /// Rendered: nine setups, eight empty plates, bowls and boxes each, on tables with other things
+    Bench,
+    /// Rendered: people eating, with hands, cutlery and food, and heads that move
+    Worn,
 }
 
 #[cfg(test)]

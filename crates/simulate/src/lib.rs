@@ -7,7 +7,9 @@
 //! - [`study`]: the folder, its images' names, marks in LabelMe's format;
 //! - [`trial`]: sizes measured through erring sensors, without pictures: accuracy and coverage of uncertainties;
 //! - [`published`]: the preset `published-bench`, the paper's bench rebuilt from its published readings;
-//! - [`large`]: the preset `large`, many sessions for load tests.
+//! - [`large`]: the preset `large`, many sessions for load tests;
+//! - [`world`]: laid tables by ray casting, with soft light, blur and noise;
+//! - [`laid`]: the presets `bench` and `worn` made of them.
 //!
 //! ```no_run
 //! use aim_batch_simulate::published::{Options, published_bench};
@@ -18,6 +20,7 @@
 #![warn(missing_docs)]
 
 mod error;
+pub mod laid;
 pub mod large;
 pub mod published;
 pub mod render;
@@ -25,6 +28,7 @@ pub mod scene;
 pub mod sensors;
 pub mod study;
 pub mod trial;
+pub mod world;
 
 pub use error::SimulateError;
 pub use large::{LargeOptions, large};

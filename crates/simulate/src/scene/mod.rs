@@ -44,7 +44,7 @@ pub struct Ray {
 }
 
 impl Ray {
-    fn at(&self, distance: f64) -> Point3<f64> {
+    pub(crate) fn at(&self, distance: f64) -> Point3<f64> {
         self.origin + self.direction * distance
     }
 

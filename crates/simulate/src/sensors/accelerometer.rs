@@ -36,7 +36,7 @@ impl<R: Rng> Accelerometer<R> {
     /// The next sample: x right, y down, z forward in the device frame. At rest upright it reads (0, -1000, 0), the
     /// specific force that holds the head up.
     pub fn sample(&mut self, pose: HeadPose) -> [i16; 3] {
-        let true_counts = self.up_in_device(pose).map(|share| COUNTS_PER_G * share);
+        let true_counts = up_in_device(pose, self.mount_pitch_deg).map(|share| COUNTS_PER_G * share);
         std::array::from_fn(|axis| {
             let wanted = true_counts[axis] - self.owed_counts[axis];
             let stored = to_count(wanted + self.noise.sample(&mut self.random));
@@ -44,15 +44,15 @@ impl<R: Rng> Accelerometer<R> {
             stored
         })
     }
+}
 
-    /// The unit vector 'up' in the device frame: that of the camera, turned up by the mount about the axis x that both share.
-    fn up_in_device(&self, pose: HeadPose) -> [f64; 3] {
-        let (sin_pitch, cos_pitch) = pose.pitch_deg.to_radians().sin_cos();
-        let (sin_roll, cos_roll) = pose.roll_deg.to_radians().sin_cos();
-        let (sin_mount, cos_mount) = self.mount_pitch_deg.to_radians().sin_cos();
-        let (down_y, down_z) = (cos_roll * cos_pitch, sin_pitch);
-        [-sin_roll * cos_pitch, -(cos_mount * down_y + sin_mount * down_z), -(cos_mount * down_z - sin_mount * down_y)]
-    }
+/// The unit vector 'up' in the device frame: that of the camera, turned up by the mount about the axis x that both share.
+pub(crate) fn up_in_device(pose: HeadPose, mount_pitch_deg: f64) -> [f64; 3] {
+    let (sin_pitch, cos_pitch) = pose.pitch_deg.to_radians().sin_cos();
+    let (sin_roll, cos_roll) = pose.roll_deg.to_radians().sin_cos();
+    let (sin_mount, cos_mount) = mount_pitch_deg.to_radians().sin_cos();
+    let (down_y, down_z) = (cos_roll * cos_pitch, sin_pitch);
+    [-sin_roll * cos_pitch, -(cos_mount * down_y + sin_mount * down_z), -(cos_mount * down_z - sin_mount * down_y)]
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "the float-to-integer cast saturates, as the sensor does")]

@@ -7,10 +7,12 @@ mod range;
 mod recording;
 
 pub use accelerometer::Accelerometer;
+pub(crate) use accelerometer::up_in_device;
 pub use motion::{HeadPose, Motion};
 pub use packets::{PACKET_PERIOD_S, SAMPLES_PER_PACKET, encode_packet, packet_sample_times_s};
 pub use range::RangeSensor;
 pub use recording::Recording;
+pub(crate) use recording::posix_s;
 
 /// Samples per second of both sensors' records.
 pub const SAMPLE_RATE_HZ: f64 = 128.0;

@@ -1,0 +1,233 @@
+//! Rims found without marks on the rendered tables of `bench` and `worn`, against the truth (docs/rims.md).
+//!
+//! ```text
+//! cargo run -p aim-batch-pipeline --example laid -- SEED [BENCHES [WORN_SESSIONS [IMAGES [WIDTH]]]]
+//! ```
+//!
+//! Prints tables. With AIM_BATCH_LAID_PICTURES=DIR every picture is kept there as JPEG. With AIM_BATCH_LAID_CSV=FILE, one
+//! line per rim found, drinking glasses' left out: confidence, right or not.
+
+use std::error::Error;
+use std::io::Write as _;
+
+use ingest::Picture;
+use model::{Container, InputSigma, Kind, Method, Quantity, Shape, View};
+use nalgebra::Point2;
+use rayon::prelude::*;
+use simulate::laid::{self, Frame, Truth};
+
+use aim_batch_pipeline::rims::{HeightSource, Rim, find_rims};
+
+/// A rim is found from this confidence on.
+const LEAST_CONFIDENCE: f64 = 0.5;
+/// A rim is a container's if its centre and radius on its true level are right within this share of the radius.
+const RIGHT: f64 = 0.12;
+/// A container is in view if so much of its rim is in the picture and seen.
+const IN_VIEW: f64 = 0.6;
+/// The selection's window of pitch.
+const WINDOW_DEG: (f64, f64) = (47.5, 62.5);
+
+/// One round container of a picture, and what was found of it.
+struct Case {
+    object: &'static str,
+    kind: Kind,
+    pitch_deg: f64,
+    in_view: bool,
+    found: Option<Found>,
+}
+
+/// Sizes of a found rim against the truth, as shares of the truth.
+#[derive(Clone, Copy)]
+struct Found {
+    /// With the rim's true level given.
+    diameter: f64,
+    /// With nothing given: plates on the table, bowls at the height found.
+    diameter_alone: f64,
+    height: f64,
+    from_foot: bool,
+}
+
+/// Which cases a line of a table counts.
+type Keep = fn(&Case) -> bool;
+
+/// What was found in one picture.
+struct Report {
+    cases: Vec<Case>,
+    /// Confidence of each rim that is not a drinking glass's, and whether it is one of a container.
+    rims: Vec<(f64, bool)>,
+    /// Drinking glasses taken for containers.
+    glasses: usize,
+    /// No container at all.
+    is_bare: bool,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let number = |at: usize, default: u64| arguments.get(at).map_or(Ok(default), |text| text.parse::<u64>());
+    let (seed, benches, sessions, images) = (number(0, 1)?, number(1, 1)?, number(2, 4)?, number(3, 24)?);
+    let width = u32::try_from(number(4, 960)?)?;
+    let camera = laid::camera([width, width * 3 / 4])?;
+    let mut out = std::io::stdout().lock();
+    let bench: Vec<Frame> =
+        (0..benches).flat_map(|at| laid::bench(seed * 1000 + at, width)).flat_map(|plan| plan.frames).collect();
+    let worn = laid::worn(seed, width, usize::try_from(sessions)?, usize::try_from(images)?);
+    let worn: Vec<Frame> = worn.into_iter().flat_map(|plan| plan.frames).collect();
+    let mut rims = Vec::new();
+    for (name, frames) in [("bench", bench), ("worn", worn)] {
+        let examine = |(at, frame): (usize, &Frame)| {
+            let view = frame.view(&camera).map_err(|e| e.to_string())?;
+            examine(frame, &view, &format!("{name}-{seed}-{at:03}"))
+        };
+        let reports = frames.par_iter().enumerate().map(examine).collect::<Result<Vec<Report>, String>>()?;
+        write!(out, "{}", summary(name, &reports))?;
+        rims.extend(reports.into_iter().flat_map(|report| report.rims));
+    }
+    write!(out, "{}", reliability(&rims))?;
+    if let Ok(file) = std::env::var("AIM_BATCH_LAID_CSV") {
+        let lines: Vec<String> = rims.iter().map(|(c, right)| format!("{c:.5},{}", u8::from(*right))).collect();
+        std::fs::write(file, lines.join("\n"))?;
+    }
+    Ok(())
+}
+
+fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
+    let jpeg = frame.photograph(view).to_jpeg(name).map_err(|e| e.to_string())?;
+    if let Ok(folder) = std::env::var("AIM_BATCH_LAID_PICTURES") {
+        std::fs::write(format!("{folder}/{name}.jpg"), &jpeg).map_err(|e| e.to_string())?;
+    }
+    let picture = Picture::decode(&jpeg).map_err(|e| e.to_string())?;
+    let rims = find_rims(&picture, view).map_err(|e| e.to_string())?;
+    let truths = frame.truths(view);
+    let (others, glasses): (Vec<&Rim>, Vec<&Rim>) =
+        rims.iter().partition(|rim| truths.iter().any(|t| is_of(rim, t, view)) || !is_of_glass(rim, frame, view));
+    let glasses = glasses.iter().filter(|rim| rim.confidence >= LEAST_CONFIDENCE).count();
+    let judged =
+        others.iter().map(|rim| (rim.confidence, truths.iter().any(|truth| is_of(rim, truth, view)))).collect();
+    let cases = truths.iter().filter(|truth| truth.kind != Kind::Box).map(|truth| {
+        let sure = rims.iter().filter(|rim| rim.confidence >= LEAST_CONFIDENCE && is_of(rim, truth, view));
+        let best = sure.max_by(|a, b| a.confidence.total_cmp(&b.confidence));
+        Case {
+            object: truth.object,
+            kind: truth.kind,
+            pitch_deg: frame.head.pitch_deg,
+            in_view: truth.rim_seen >= IN_VIEW,
+            found: best.and_then(|rim| found(rim, truth, view)),
+        }
+    });
+    Ok(Report { cases: cases.collect(), rims: judged, glasses, is_bare: truths.is_empty() })
+}
+
+/// Whether a rim is a level circle of a drinking glass: its rim, its foot, or what it holds.
+fn is_of_glass(rim: &Rim, frame: &Frame, view: &View) -> bool {
+    let camera_mm = view.pose().camera_height_mm();
+    let ([x, y], radius) = rim.on_table_mm;
+    frame.vessels.iter().any(|vessel| {
+        let at = frame.in_view(vessel.at_mm);
+        [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().any(|share| {
+            let shrink = 1.0 - share * vessel.height_mm / camera_mm;
+            let wide = vessel.diameters_mm[0] + share * (vessel.diameters_mm[1] - vessel.diameters_mm[0]);
+            let apart = (Point2::new(x * shrink, y * shrink) - at).norm();
+            apart < 0.35 * wide && (2.0 * radius * shrink / wide - 1.0).abs() < 0.3
+        })
+    })
+}
+
+/// Whether a rim is that of a container, its outer edge or the inner one.
+fn is_of(rim: &Rim, truth: &Truth, view: &View) -> bool {
+    let Some(diameter_mm) = truth.true_diameter_mm else { return false };
+    let shrink = 1.0 - truth.rim_level_mm / view.pose().camera_height_mm();
+    let ([x, y], radius) = rim.on_table_mm;
+    let center = Point2::new(x * shrink, y * shrink);
+    let apart = (center - Point2::new(truth.center_x_mm, truth.center_y_mm)).norm();
+    let off = (2.0 * radius * shrink / diameter_mm - 1.0).abs();
+    apart.max(off * 0.5 * diameter_mm) < RIGHT * 0.5 * diameter_mm
+}
+
+fn found(rim: &Rim, truth: &Truth, view: &View) -> Option<Found> {
+    let truth_mm = truth.true_diameter_mm?;
+    let size_mm = |rim_height_mm: Option<f64>| {
+        let container = Container { kind: truth.kind, shape: Shape::Circle, rim_height_mm, wall: None };
+        let sizes = rim.sizes(view, Method::Ray, &container, &InputSigma::NONE);
+        let diameter = sizes.into_iter().find(|(quantity, _)| *quantity == Quantity::Diameter)?;
+        Some(diameter.1.ok()?.measured.predicted_mm)
+    };
+    Some(Found {
+        diameter: size_mm(Some(truth.rim_level_mm))? / truth_mm - 1.0,
+        diameter_alone: size_mm(None)? / truth_mm - 1.0,
+        height: rim.height.mm / truth.true_height_mm - 1.0,
+        from_foot: rim.height.source == HeightSource::Foot,
+    })
+}
+
+fn summary(name: &str, reports: &[Report]) -> String {
+    let cases: Vec<&Case> = reports.iter().flat_map(|report| &report.cases).filter(|case| case.in_view).collect();
+    let mut text = format!("{name}: {} pictures, {} round containers in view\n", reports.len(), cases.len());
+    let rows: [(&str, Keep); 5] = [
+        ("all", |_| true),
+        ("pitch in the window", |c| (WINDOW_DEG.0..WINDOW_DEG.1).contains(&c.pitch_deg)),
+        ("at 55 degrees (50 to 60)", |c| (50.0..60.0).contains(&c.pitch_deg)),
+        ("plates", |c| c.kind == Kind::Plate),
+        ("bowls", |c| c.kind == Kind::Bowl),
+    ];
+    for (label, keep) in rows {
+        let kept: Vec<&&Case> = cases.iter().filter(|case| keep(case)).collect();
+        text += &line(label, &kept);
+    }
+    let mut objects: Vec<&str> = cases.iter().map(|case| case.object).collect();
+    objects.sort_unstable();
+    objects.dedup();
+    for object in objects {
+        text += &line(object, &cases.iter().filter(|case| case.object == object).collect::<Vec<_>>());
+    }
+    let false_in = |report: &&Report| report.rims.iter().any(|(c, right)| *c >= LEAST_CONFIDENCE && !right);
+    let bare: Vec<&Report> = reports.iter().filter(|report| report.is_bare).collect();
+    text += &format!(
+        "  false rims: in {} of {} pictures without a container, in {} of {} with; and of drinking glasses: {}\n",
+        bare.iter().filter(|r| false_in(r)).count(),
+        bare.len(),
+        reports.iter().filter(|r| !r.is_bare).filter(false_in).count(),
+        reports.len() - bare.len(),
+        reports.iter().map(|r| r.glasses).sum::<usize>(),
+    );
+    text
+}
+
+fn line(label: &str, cases: &[&&Case]) -> String {
+    let found: Vec<Found> = cases.iter().filter_map(|case| case.found).collect();
+    let quantiles = |values: Vec<f64>| match (quantile(&values, 0.5), quantile(&values, 0.95)) {
+        (Some(median), Some(q95)) => format!("{:.2} / {:.2} %", 100.0 * median, 100.0 * q95),
+        _ => "-".to_owned(),
+    };
+    let of = |size: &dyn Fn(&Found) -> f64| quantiles(found.iter().map(|f| size(f).abs()).collect());
+    let diameters: Vec<f64> = found.iter().map(|f| f.diameter).collect();
+    let signed = quantile(&diameters, 0.5).map_or_else(|| "-".to_owned(), |median| format!("{:+.2} %", 100.0 * median));
+    let feet = found.iter().filter(|f| f.from_foot).map(|f| f.height.abs()).collect();
+    format!(
+        "  {label:26} found {:3} of {:3}  |diameter| median / q95: {} (level given; signed median {}), {} (nothing given)  |height|: {}\n",
+        found.len(),
+        cases.len(),
+        of(&|f| f.diameter),
+        signed,
+        of(&|f| f.diameter_alone),
+        quantiles(feet),
+    )
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "an index")]
+fn quantile(values: &[f64], p: f64) -> Option<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get((p * (sorted.len().checked_sub(1)?) as f64).round() as usize).copied()
+}
+
+/// Of the rims in each band of confidence, how many are right.
+fn reliability(rims: &[(f64, bool)]) -> String {
+    let bands = [0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 1.01];
+    let rows = bands.windows(2).map(|band| {
+        let inside: Vec<bool> =
+            rims.iter().filter(|(c, _)| (band[0]..band[1]).contains(c)).map(|(_, right)| *right).collect();
+        let right = inside.iter().filter(|right| **right).count();
+        format!("  {:.2} to {:.2}: {right} of {} right\n", band[0], band[1].min(1.0), inside.len())
+    });
+    std::iter::once("confidence\n".to_owned()).chain(rows).collect()
+}

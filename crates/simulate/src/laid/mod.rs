@@ -1,0 +1,53 @@
+//! The presets `bench` and `worn`: laid tables as hard as real ones, seen by sensors that err as real ones do. Truth beside them.
+//!
+//! [`bench()`] and [`worn()`] plan sessions: every [`Frame`] is a world, a pose and an exposure, and can be photographed and
+//! asked for the truth without any file. [`write()`] makes a study of them. Everything follows from the seed alone, for any
+//! number of threads.
+
+mod bench;
+mod catalogue;
+mod frame;
+mod plan;
+mod sensors;
+mod table;
+#[cfg(test)]
+mod tests;
+mod things;
+mod ware;
+mod worn;
+mod write;
+
+pub use bench::bench;
+pub use frame::{Frame, Placed, Truth};
+pub use plan::Plan;
+pub use things::Vessel;
+pub use ware::{Wall, Ware};
+pub use worn::worn;
+pub use write::{LaidOptions, LaidPreset, camera, write};
+
+use crate::sensors::HeadPose;
+
+/// Periods of a living head's sway, in seconds, and their shares.
+const SWAYS: [(f64, f64); 3] = [(4.3, 0.5), (1.9, 0.3), (0.8, 0.2)];
+
+/// A head that sways about its pose by up to `amplitude_deg`, at the height it has. `number` tells sessions apart.
+fn sway(head: HeadPose, amplitude_deg: f64, number: usize, time_s: f64) -> HeadPose {
+    if amplitude_deg <= 0.0 {
+        return head;
+    }
+    #[expect(clippy::cast_precision_loss, reason = "a phase")]
+    let phase = number as f64;
+    let sum = |turn: f64| -> f64 {
+        let part = |(period_s, share): (f64, f64)| {
+            share * (std::f64::consts::TAU * time_s / period_s + phase * period_s + turn).sin()
+        };
+        SWAYS.into_iter().map(part).sum()
+    };
+    let height_mm = head.range_mm * head.pitch_deg.to_radians().sin();
+    let pitch_deg = head.pitch_deg + amplitude_deg * sum(0.0);
+    HeadPose {
+        pitch_deg,
+        roll_deg: head.roll_deg + amplitude_deg * sum(1.6),
+        range_mm: height_mm / pitch_deg.to_radians().sin(),
+    }
+}

@@ -1,0 +1,118 @@
+//! What the sensors of a session store: with the errors that real ones have.
+
+use model::Camera;
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::plan::{Plan, Use, random};
+use super::sway;
+use crate::error::SimulateError;
+use crate::sensors::{
+    HeadPose, MOUNT_PITCH_DEG, PACKET_PERIOD_S, encode_packet, packet_sample_times_s, posix_s, up_in_device,
+};
+
+/// ADXL362: counts per g at +-2 g, noise of a sample (550 ug/sqrt Hz over 50 Hz), SD of the zero-g offset of an axis after
+/// soldering, all in mg (data sheet, table 1: offsets up to 35 mg on X and Y; most are smaller).
+const COUNTS_PER_G: f64 = 1000.0;
+const NOISE_MG: f64 = 4.0;
+const OFFSET_MG: f64 = 8.0;
+
+/// VL53L0X: a reading every 33 ms, noise as a share of the distance and at least (both SD), its own scale (SD), shares of readings
+/// that are lost and that are held for several periods, the code for no target, and the furthest it reads.
+const READING_S: f64 = 0.033;
+const RANGE_NOISE: f64 = 0.012;
+const RANGE_NOISE_MM: f64 = 2.0;
+const RANGE_SCALE: f64 = 0.01;
+const LOST: f64 = 0.03;
+const HELD: f64 = 0.02;
+const NO_TARGET: i16 = 8190;
+const FURTHEST_MM: f64 = 1200.0;
+/// The range sensor starts later than the accelerometer, so that their packets do not line up.
+const RANGE_STARTS_S: f64 = 0.375;
+/// Recording goes on after the last picture.
+const AFTER_S: f64 = 6.0;
+
+fn normal(random: &mut ChaCha8Rng) -> f64 {
+    StandardNormal.sample(random)
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "the float-to-integer cast saturates, as the sensors do")]
+fn to_count(value: f64) -> i16 {
+    value.round() as i16
+}
+
+impl Plan {
+    fn head_at(&self, time_s: f64) -> Option<HeadPose> {
+        Some(sway(self.motion.at(time_s)?, self.sway_deg, self.number, time_s))
+    }
+
+    fn packet_starts_s(&self, first_s: f64) -> impl Iterator<Item = f64> + use<> {
+        let end_s = self.frames.last().map_or(0.0, |frame| frame.time_s) + AFTER_S;
+        (0_u32..)
+            .map(move |packet| first_s + f64::from(packet) * PACKET_PERIOD_S)
+            .take_while(move |start| *start < end_s)
+    }
+
+    /// The accelerometer's packets: gravity, noise, zero-g offset.
+    pub(super) fn acceleration(&self, seed: u64) -> Vec<Vec<u8>> {
+        let mut random = random(seed, Use::Acceleration, self.number);
+        let offset: [f64; 3] = std::array::from_fn(|_| OFFSET_MG * normal(&mut random));
+        let packet = |first_s: f64| {
+            let mut channels = vec![Vec::new(); 4];
+            for time_s in packet_sample_times_s(first_s) {
+                let up = self.head_at(time_s).map_or([0.0; 3], |head| up_in_device(head, MOUNT_PITCH_DEG));
+                for axis in 0..3 {
+                    let mg = COUNTS_PER_G * up[axis] + offset[axis] + NOISE_MG * normal(&mut random);
+                    channels[axis].push(to_count(mg));
+                }
+                channels[3].push(0);
+            }
+            encode_packet(posix_s(self.start()) + first_s, &channels)
+        };
+        self.packet_starts_s(0.0).map(packet).collect()
+    }
+
+    /// The range sensor's packets: its cone over what stands there at each picture, and in between in proportion to the way
+    /// to the table; noise, scale, held and lost readings.
+    pub(super) fn range(&self, seed: u64, camera: &Camera) -> Result<Vec<Vec<u8>>, SimulateError> {
+        let mut random = random(seed, Use::Range, self.number);
+        let scale = 1.0 + RANGE_SCALE * normal(&mut random);
+        let shares = self
+            .frames
+            .iter()
+            .map(|frame| Ok((frame.time_s, frame.cone_mm(&frame.view(camera)?) / frame.head.range_mm)));
+        let shares: Vec<(f64, f64)> = shares.collect::<Result<_, SimulateError>>()?;
+        let starts_s: Vec<f64> = self.packet_starts_s(RANGE_STARTS_S).collect();
+        let end_s = starts_s.last().map_or(0.0, |last| last + PACKET_PERIOD_S);
+        let (mut readings, mut time_s) = (Vec::new(), 0.0);
+        while time_s < end_s {
+            let seen_mm =
+                self.head_at(time_s).map_or(f64::NAN, |head| head.range_mm * between(&shares, time_s) * scale);
+            let noisy_mm = seen_mm + normal(&mut random) * (RANGE_NOISE * seen_mm).max(RANGE_NOISE_MM);
+            let (is_lost, is_held) = (random.random_bool(LOST), random.random_bool(HELD));
+            readings.push(match readings.last() {
+                Some(held) if is_held => *held,
+                _ if is_lost || noisy_mm.is_nan() || noisy_mm > FURTHEST_MM => NO_TARGET,
+                _ => to_count(noisy_mm),
+            });
+            time_s += READING_S;
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index of a reading")]
+        let held = |time_s: f64| readings.get((time_s / READING_S) as usize).copied().unwrap_or(NO_TARGET);
+        let packet = |first_s: f64| {
+            encode_packet(posix_s(self.start()) + first_s, &[packet_sample_times_s(first_s).map(held).collect()])
+        };
+        Ok(starts_s.into_iter().map(packet).collect())
+    }
+}
+
+/// Between the nearest two of (time, value), and the end's beyond them.
+fn between(values: &[(f64, f64)], time_s: f64) -> f64 {
+    let next = values.partition_point(|(at, _)| *at <= time_s);
+    match (next.checked_sub(1).and_then(|i| values.get(i)), values.get(next)) {
+        (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (time_s - a.0) / (b.0 - a.0),
+        (Some(only), None) | (None, Some(only)) => only.1,
+        (None, None) => 1.0,
+    }
+}
