@@ -66,6 +66,12 @@ impl Bench {
         self.work().join(format!("mcap/{session}.mcap"))
     }
 
+    /// How many recordings are whole.
+    pub fn recordings(&self) -> usize {
+        let files = std::fs::read_dir(self.work().join("mcap")).into_iter().flatten().flatten();
+        files.filter(|file| file.path().extension().is_some_and(|extension| extension == "mcap")).count()
+    }
+
     /// `aim-batch run` of the study.
     pub fn command(&self) -> Command {
         let mut command = aim_batch();

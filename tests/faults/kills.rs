@@ -10,7 +10,7 @@ use crate::support::assert_exit;
 
 /// Stretches the stages, so that a moment falls into any of them, and sessions are in flight when signals come.
 const PAUSE: [(&str, &str); 1] = [("AIM_BATCH_TEST_PAUSE_MS", "8")];
-const LONG_PAUSE: [(&str, &str); 1] = [("AIM_BATCH_TEST_PAUSE_MS", "1500")];
+const LONG_PAUSE: [(&str, &str); 1] = [("AIM_BATCH_TEST_PAUSE_MS", "30000")];
 
 #[test]
 fn killed_at_20_random_moments_then_resumed_gives_the_same_bytes() {
@@ -21,8 +21,10 @@ fn killed_at_20_random_moments_then_resumed_gives_the_same_bytes() {
     assert!(whole.wait().unwrap().success());
     let whole_run = start.elapsed();
     let mut random = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap().as_nanos() as u64 | 1;
-    let mut killed = 0;
-    for _ in 0..20 {
+    let (mut killed, mut runs) = (0, 0);
+    while killed < 20 {
+        runs += 1;
+        assert!(runs <= 100, "only {killed} of {runs} runs were killed before their end");
         std::fs::remove_dir_all(bench.path("out")).unwrap();
         random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let moment = whole_run.mul_f64((random >> 11) as f64 / (1_u64 << 53) as f64);
@@ -37,7 +39,6 @@ fn killed_at_20_random_moments_then_resumed_gives_the_same_bytes() {
         assert_eq!(bench.files(), expected, "killed after {moment:?}");
         assert_eq!(bench.leftovers(), Vec::<String>::new(), "killed after {moment:?}");
     }
-    assert!(killed >= 10, "only {killed} of 20 runs were killed before their end");
 }
 
 #[test]
@@ -79,11 +80,14 @@ fn killed_while_it_replaces_results_the_old_ones_or_the_new_ones_are_there() {
     assert_eq!(bench.run_well(), new);
 }
 
-/// Sends a signal while sessions are in flight; gives exit code and what was said.
-fn stopped_by(bench: &Bench, name: &str) -> (Option<i32>, String) {
-    let child = bench.start(&["--jobs", "2"], &[("AIM_BATCH_TEST_PAUSE_MS", "150")]);
+/// Sends a signal while sessions are in flight, once there are so many recordings; gives exit code and what was said.
+fn stopped_by(bench: &Bench, name: &str, recordings: usize) -> (Option<i32>, String) {
+    let child = bench.start(&["--jobs", "2"], &[("AIM_BATCH_TEST_PAUSE_MS", "400")]);
     wait_for_lock(bench, &child);
-    std::thread::sleep(Duration::from_millis(400));
+    // With three recordings made by two workers, one session at least is done; three more are to be.
+    while bench.recordings() < recordings {
+        std::thread::sleep(Duration::from_millis(5));
+    }
     let start = Instant::now();
     signal(&child, name);
     let output = child.wait_with_output().unwrap();
@@ -94,7 +98,7 @@ fn stopped_by(bench: &Bench, name: &str) -> (Option<i32>, String) {
 #[test]
 fn sigint_keeps_what_is_done_and_ends_with_130() {
     let bench = Bench::new();
-    let (code, said) = stopped_by(&bench, "INT");
+    let (code, said) = stopped_by(&bench, "INT", 3);
     assert_eq!(code, Some(130), "{said}");
     assert!(said.contains("stopped by SIGINT") && said.contains("run again to go on"), "{said}");
     assert!(!bench.out().exists());
@@ -108,7 +112,7 @@ fn sigterm_ends_with_143_and_leaves_the_old_results() {
     let bench = Bench::new();
     let old = bench.run_well();
     bench.edit("study.toml", |text| format!("{text}\n[select]\npitch_tolerance_deg = 3.0\n"));
-    let (code, said) = stopped_by(&bench, "TERM");
+    let (code, said) = stopped_by(&bench, "TERM", 0);
     assert_eq!(code, Some(143), "{said}");
     assert!(said.contains("stopped by SIGTERM"), "{said}");
     assert_eq!(bench.files(), old);
@@ -126,7 +130,7 @@ fn a_second_sigint_ends_at_once() {
     signal(&child, "INT");
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
-    assert!(start.elapsed() < Duration::from_millis(1_200), "it waited for the sessions in flight");
+    assert!(start.elapsed() < Duration::from_secs(25), "it waited for the sessions in flight");
     assert_eq!(bench.run_well(), bench.undisturbed());
 }
 

@@ -1,7 +1,7 @@
 //! Rims that a run found, as files that a person can check and correct.
 
 use std::collections::BTreeMap;
-use std::io;
+use std::io::{self, Write as _};
 use std::path::{Component, Path, PathBuf};
 
 use model::Stage;
@@ -104,8 +104,7 @@ impl Writer<'_> {
     /// pictures than those of the card.
     fn picture(&self, image: &str) -> String {
         let beside = || image.rsplit('/').next().unwrap_or(image).to_owned();
-        let is_recorded =
-            self.prepared.source.camera_spec.camera().is_ok_and(|camera| camera == self.prepared.marks_camera.1);
+        let is_recorded = self.prepared.camera == self.prepared.marks_camera.1;
         let picture = self.dir.card.as_ref().filter(|_| is_recorded).map(|card| card.join(image));
         picture.and_then(|picture| relative_path(&self.folder, &picture)).unwrap_or_else(beside)
     }
@@ -123,7 +122,9 @@ fn write_unless_other(path: &Path, text: &str) -> io::Result<bool> {
         Err(error) => return Err(error),
     }
     let partial = path.with_extension("json.partial"); // half a file would be taken for marks
-    std::fs::write(&partial, text)?;
+    let mut file = std::fs::File::create(&partial)?;
+    file.write_all(text.as_bytes())?;
+    file.sync_all()?;
     std::fs::rename(&partial, path)?;
     Ok(true)
 }

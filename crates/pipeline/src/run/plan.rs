@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use ingest::{CardLook, Fingerprint};
-use model::{Problem, SessionStatus, Stage};
+use model::{SessionStatus, Stage};
 
 use super::Halted;
 use super::keys::{self, MeasureParts};
@@ -118,9 +118,4 @@ pub(super) fn of_recording(mcap: &Path) -> Fingerprint {
 pub(super) fn statuses(current: &[&SessionPlan<'_>]) -> BTreeMap<String, SessionStatus> {
     let named = current.iter().filter_map(|plan| Some((plan.dir.name.clone(), plan.kept.status.clone()?)));
     named.collect()
-}
-
-/// Why a session cannot be prepared: the same each time it is asked.
-pub(super) fn prepare(common: &Common<'_>, dir: &SessionDir) -> Result<Prepared, Problem> {
-    Prepared::new(common.study, dir, common.program)
 }

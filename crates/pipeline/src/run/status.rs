@@ -7,7 +7,8 @@ use model::SessionStatus;
 
 use super::Halted;
 use super::options::program_and_commit;
-use super::plan::{Common, Current, prepare};
+use super::plan::{Common, Current};
+use crate::session::Prepared;
 use crate::sessions::in_parallel;
 use crate::study::{SessionDir, Study};
 use crate::work::{Holder, Kept, State, recording_of, state_file};
@@ -66,7 +67,7 @@ pub fn status(study: &Study, work_dir: &Path, program: &str, commit: Option<&str
 }
 
 fn has_old_calibration(common: &Common<'_>, dir: &SessionDir, mcap: &Path) -> bool {
-    match (prepare(common, dir), SessionReader::open(mcap)) {
+    match (Prepared::new(common.study, dir, common.program), SessionReader::open(mcap)) {
         (Ok(prepared), Ok(reader)) => reader.metadata().camera != prepared.source.camera_spec,
         _ => false,
     }

@@ -7,7 +7,7 @@ use std::time::Instant;
 use ingest::{ByteBudget, IngestError, Ingested, SessionSource};
 use model::{Problem, SessionLog, SessionStatus, Severity, Stage};
 
-use super::plan::{Common, SessionPlan, of_recording, prepare};
+use super::plan::{Common, SessionPlan, of_recording};
 use super::{Halted, keys};
 use crate::inputs::sha256_of_bytes;
 use crate::labelme::MARKS_UNREADABLE;
@@ -92,7 +92,8 @@ impl Worker<'_> {
         stage: &Cell<Stage>,
         log: &mut SessionLog,
     ) -> Result<SessionStatus, Trouble> {
-        let prepared = prepare(self.common, plan.dir)?;
+        // Again: hours may have gone since the plan.
+        let prepared = Prepared::new(self.common.study, plan.dir, self.common.program)?;
         self.begin(plan, stage, Stage::Ingest);
         let (ingest_key, changed) = self.ingest(plan, &prepared, log)?;
         let signals_key = keys::signals_key(self.common.study, self.common.program, &ingest_key)?;

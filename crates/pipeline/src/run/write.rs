@@ -84,9 +84,10 @@ impl<'a> Writing<'a> {
 
     /// What stands for files of results that were written now.
     fn written(&self, files: &[PathBuf]) -> Result<Written, Halted> {
-        let rows: BTreeMap<String, String> = self.work.state.all()?.into_iter().filter_map(measured).collect();
-        let of_study = |(session, _): &(&String, &String)| self.study.sessions.iter().any(|dir| dir.name == **session);
-        let rows: BTreeMap<_, _> = rows.iter().filter(of_study).collect();
+        let kept = self.work.state.all()?;
+        let rows_of =
+            |dir: &SessionDir| Some((dir.name.clone(), kept.get(&dir.name)?.measure.as_ref()?.output_sha256.clone()));
+        let rows: BTreeMap<String, String> = self.study.sessions.iter().filter_map(rows_of).collect();
         let key = keys::hash(&(self.options.program_and_commit(), &self.study_inputs, settings(self.study)?, rows))?;
         let mut fingerprint = Fingerprint::default();
         for file in files {
@@ -94,10 +95,6 @@ impl<'a> Writing<'a> {
         }
         Ok(Written { key, files: fingerprint.hex() })
     }
-}
-
-fn measured((session, kept): (String, crate::work::Kept)) -> Option<(String, String)> {
-    Some((session, kept.measure?.output_sha256))
 }
 
 /// One line for all files of the card; a year of cards would not fit into the metadata. Each recording lists its own.

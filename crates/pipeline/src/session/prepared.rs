@@ -17,6 +17,8 @@ pub(crate) struct Prepared {
     pub spec: SessionSpec,
     /// What its card is ingested from.
     pub source: SessionSource,
+    /// The session's camera.
+    pub camera: Camera,
     /// Camera of the pictures that were marked.
     pub marks_camera: (CameraSpec, Camera),
     /// Path and hash of session.toml, if there is one.
@@ -46,7 +48,7 @@ impl Prepared {
             clock_zero_utc: spec.clock_zero_utc,
             program: program.to_owned(),
         };
-        Ok(Self { spec, source, marks_camera, session_toml_sha256 })
+        Ok(Self { spec, source, camera: camera.1, marks_camera, session_toml_sha256 })
     }
 
     /// From readings to pose and choice; `mount_pitch_deg` is the device profile's.

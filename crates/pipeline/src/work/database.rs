@@ -142,5 +142,5 @@ pub(super) fn set_aside(path: &Path) -> Result<(), WorkError> {
         _ => Ok(()),
     };
     let moved = journal.and_then(|()| std::fs::rename(path, with(".old")));
-    moved.map_err(|source| WorkError::Folder { path: path.to_owned(), source })
+    moved.map_err(|source| WorkError::File { path: path.to_owned(), source })
 }

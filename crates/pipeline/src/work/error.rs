@@ -13,6 +13,14 @@ pub enum WorkError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// A file there cannot be removed or renamed.
+    #[error("cannot remove or rename a file of the work folder: {source}; check permissions: {}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
     /// Another run is at work there.
     #[error("another run is at work in this folder: {holder}; wait for it to end, or give --work another folder: {}", path.display())]
     Held {

@@ -52,7 +52,7 @@ impl WorkFolder {
             let mcap = self.mcap(&session);
             match std::fs::remove_file(&mcap) {
                 Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
-                    return Err(WorkError::Folder { path: mcap, source });
+                    return Err(WorkError::File { path: mcap, source });
                 }
                 _ => self.state.forget(&session)?,
             }

@@ -110,10 +110,9 @@ impl Search<'_> {
     }
 
     fn in_picture(&self, number: usize, frame: &Frame, bytes: &[u8]) -> Result<Vec<Seen>, String> {
-        let camera = self.prepared.source.camera_spec.camera().map_err(|error| error.to_string())?;
         let Some(pose) = frame.signals.pose_for(Method::Ray) else { return Ok(Vec::new()) };
         let calibration = self.study.calibration.as_ref();
-        let Some(view) = corrected_view(calibration, Method::Ray, View::new(camera, pose)) else {
+        let Some(view) = corrected_view(calibration, Method::Ray, View::new(self.prepared.camera, pose)) else {
             return Ok(Vec::new());
         };
         let picture = Picture::decode(bytes).map_err(|error| error.to_string())?;
@@ -124,7 +123,7 @@ impl Search<'_> {
 
     /// None of a rim that has no size, or that the marks camera would not show.
     fn seen(&self, number: usize, frame: &Frame, view: &View, rim: &Rim) -> Option<Seen> {
-        let (camera, marks_camera) = (&self.prepared.source.camera_spec.camera().ok()?, &self.prepared.marks_camera.1);
+        let (camera, marks_camera) = (&self.prepared.camera, &self.prepared.marks_camera.1);
         let points_px: Vec<[f64; 2]> =
             rim.points_px.iter().filter_map(|point| in_marked_picture(camera, marks_camera, *point)).collect();
         let rim_px = marks_camera.focal_px()[0] / camera.focal_px()[0] * rim.perimeter_px;
