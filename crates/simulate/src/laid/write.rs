@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use model::{Camera, CameraSpec, Kind, Shape};
+use model::{Camera, CameraSpec, Kind};
 use serde::Serialize;
 
 use super::catalogue::WARES;
@@ -12,7 +12,7 @@ use super::plan::Plan;
 use super::{bench, worn};
 use crate::Summary;
 use crate::error::SimulateError;
-use crate::study::{StudyFolder, image_stem, labelme_json};
+use crate::study::{ObjectRow, StudyFolder, image_stem, labelme_json};
 
 /// Which of both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -105,19 +105,6 @@ pub fn camera(size_px: [u32; 2]) -> Result<Camera, SimulateError> {
     let spec: CameraSpec = toml::from_str(&camera_toml(size_px))
         .map_err(|source| SimulateError::CameraFile { name: CAMERA_FILE, source })?;
     spec.camera().map_err(|source| SimulateError::Camera { name: CAMERA_FILE, source })
-}
-
-/// A row of objects.csv.
-#[derive(Serialize)]
-struct ObjectRow {
-    object: &'static str,
-    kind: Kind,
-    shape: Shape,
-    true_diameter_mm: Option<f64>,
-    true_width_mm: Option<f64>,
-    true_length_mm: Option<f64>,
-    true_height_mm: Option<f64>,
-    rim_height_mm: Option<f64>,
 }
 
 /// A row of truth.csv: one per image and container, or one without a container.

@@ -5,7 +5,7 @@ use nalgebra::{Point2, Point3, Vector2};
 use serde::Serialize;
 
 use crate::scene::{Bowl, Colour, Outline, Plate, Scene, Solid, Tub};
-use crate::study::LabeledLine;
+use crate::study::{LabeledLine, ObjectRow};
 
 /// Foot radius of a bowl, as a share of its rim radius.
 const FOOT_SHARE: f64 = 0.6;
@@ -57,19 +57,6 @@ pub(super) struct TrueSizes {
     pub true_width_mm: Option<f64>,
     pub true_length_mm: Option<f64>,
     pub true_height_mm: Option<f64>,
-}
-
-/// A row of objects.csv.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct ObjectRow {
-    object: &'static str,
-    kind: Kind,
-    shape: Shape,
-    true_diameter_mm: Option<f64>,
-    true_width_mm: Option<f64>,
-    true_length_mm: Option<f64>,
-    true_height_mm: Option<f64>,
-    rim_height_mm: Option<f64>,
 }
 
 impl Object {

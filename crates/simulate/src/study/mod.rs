@@ -2,9 +2,11 @@
 
 mod folder;
 mod labelme;
+mod object_row;
 
 pub use folder::StudyFolder;
 pub use labelme::{LabeledLine, labelme_json};
+pub use object_row::ObjectRow;
 
 use jiff::Timestamp;
 use model::UtcNs;
