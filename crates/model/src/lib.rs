@@ -38,6 +38,7 @@ mod container;
 mod flow;
 mod frame_log;
 mod fusion;
+mod gallery;
 pub mod lens;
 mod located;
 mod marks;
@@ -63,6 +64,7 @@ pub use container::{Kind, Method, Quantity, Shape, Wall};
 pub use flow::{Flow, FlowStep, ImageCounts, StudyFlow};
 pub use frame_log::{FrameFlag, FrameReason};
 pub use fusion::{Consistency, Fused, Share, Verdict, fuse};
+pub use gallery::{GalleryMark, GalleryPicture, GallerySink, PictureView};
 pub use lens::{LensError, LensModel};
 pub use marks::{Feature, Mark, ObjectMarks};
 pub use measure::{

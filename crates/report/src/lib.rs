@@ -14,6 +14,7 @@
 
 mod atomic;
 mod compare;
+mod figure;
 mod parquet;
 mod render;
 mod table;
@@ -22,6 +23,7 @@ mod write_dir;
 
 pub use atomic::{FileError, write as write_file};
 pub use compare::{CompareError, Comparison, Difference, compare};
+pub use figure::Figure;
 pub use parquet::{ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, run_file};
 pub use render::{csv, latex, markdown, terminal, terminal_set};
 pub use table::{Align, Cell, Column, Footnote, Format, Role, RowKind, Table, TableRow};
