@@ -87,7 +87,7 @@ pub struct RunArgs {
     /// there stay as they are
     #[arg(long, value_name = "DIR")]
     pub write_marks: Option<PathBuf>,
-    /// Also write the tables to this folder (CSV, Markdown, LaTeX)
+    /// Also write the report to this folder: index.html, and the tables as CSV, Markdown and LaTeX
     #[arg(long, env = "AIM_BATCH_REPORT")]
     pub report: Option<PathBuf>,
     /// Settings in place of study.toml's
@@ -253,7 +253,7 @@ pub struct IngestArgs {
 pub struct ReportArgs {
     /// results.parquet of a run; the ledger of images, frames.parquet, is looked for beside it
     pub results: PathBuf,
-    /// Folder for the tables (CSV, Markdown, LaTeX); without it they are only printed
+    /// Folder for the report: index.html, and the tables as CSV, Markdown and LaTeX; without it they are only printed
     #[arg(short, long)]
     pub out: Option<PathBuf>,
 }

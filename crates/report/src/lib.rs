@@ -7,6 +7,7 @@
 //!   [`accuracy`], [`rater_agreement`] and [`methods`] hold sizes, raters and methods against the truth and each other;
 //!   [`flow`] and [`left_out`] tell what became of the images.
 //! - [`terminal`], [`csv()`], [`markdown`] and [`latex`] draw one [`Table`]; [`write_dir`] writes them all.
+//! - [`write_report`] writes the tables with a [`Page`]: `index.html`, which shows all of it, with [`Figure`]s and [`Pictures`].
 //! - [`compare`] holds the tables against a folder of expected ones: a gate for automatic runs.
 //!
 //! What each table is, its statistics and its CSV columns: docs/tables.md.
@@ -15,19 +16,23 @@
 mod atomic;
 mod compare;
 mod figure;
+mod page;
 mod parquet;
 mod render;
 mod table;
 mod tables;
 mod write_dir;
+mod write_report;
 
 pub use atomic::{FileError, write as write_file};
 pub use compare::{CompareError, Comparison, Difference, compare};
 pub use figure::Figure;
-pub use parquet::{ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, run_file};
+pub use page::{Page, PageError, PictureError, Pictures};
+pub use parquet::{ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, read_run_log, run_file};
 pub use render::{csv, latex, markdown, terminal, terminal_set};
 pub use table::{Align, Cell, Column, Footnote, Format, Role, RowKind, Table, TableRow};
 pub use tables::{
     accuracy, error_by_height, error_by_pitch, flow, flow_in_short, left_out, methods, rater_agreement, sizes, tables,
 };
 pub use write_dir::{WriteError, write_dir};
+pub use write_report::{ReportError, write_report};

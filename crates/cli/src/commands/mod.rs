@@ -5,6 +5,7 @@ pub mod check;
 pub mod ingest;
 pub mod inspect;
 pub mod measure;
+mod page;
 mod place;
 mod problems;
 pub mod project;

@@ -1,20 +1,21 @@
-//! `report`: tables again, from the files that `run` wrote.
+//! `report`: tables and page again, from the files that `run` wrote.
 
 use std::io;
 
-use ::report::{ReadError, Results, frames_file};
+use ::report::{Pictures, ReadError, Results, frames_file};
 
-use super::{outcome, print, tables_text, tell};
+use super::{outcome, page, print, tables_text, tell};
 use crate::args::ReportArgs;
 use crate::exit::{Failure, Outcome};
 
-/// Prints the tables, and writes them when a folder is given.
+/// Prints the tables, and writes the report when a folder is given.
 pub fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     let mut results = Results::read(&args.results)?;
     let lost = read_flow(&mut results, args)?;
     print(&tables_text(&results))?;
     if let Some(dir) = &args.out {
-        ::report::write_dir(&results, dir)?;
+        let page = page::write(&results, &args.results, &Pictures::new(dir), dir)?;
+        tell(&format!("wrote {}\n", page.display()));
     }
     Ok(outcome(lost))
 }

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
 use pipeline::{Halted, Holder, MarksWritten, RunError, RunOptions, WriteMarksError};
-use report::{FileError, SinkError};
+use report::{FileError, Pictures, SinkError};
 
 use super::summary::{Finished, tell_summary};
-use super::{COMMIT, PROGRAM, outcome, place, print, settings, stop_on_signals, tables_text, tell};
+use super::{COMMIT, PROGRAM, outcome, page, place, print, settings, stop_on_signals, tables_text, tell};
 use crate::args::RunArgs;
 use crate::exit::{Failure, Outcome};
 use crate::logging::LogFormat;
@@ -40,11 +40,9 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     let mut results = ::report::Results::read(out)?;
     results.read_flow(&frames)?;
     print(&tables_text(&results))?;
-    if let Some(dir) = &args.report {
-        ::report::write_dir(&results, dir)?;
-    }
+    let page = args.report.as_ref().map(|dir| page::write(&results, out, &Pictures::new(dir), dir)).transpose()?;
     let files = [out.clone(), frames, ::report::run_file(out)];
-    let files: Vec<PathBuf> = files.into_iter().chain(args.report.clone()).collect();
+    let files: Vec<PathBuf> = files.into_iter().chain(page).collect();
     tell_summary(&Finished { ran: &ran, files: &files, work_dir: &options.work_dir }, format);
     if let Some((folder, written)) = marks {
         tell_marks(written, folder, format);

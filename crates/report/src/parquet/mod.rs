@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 mod columns;
 mod read;
 mod row_file;
+mod run_log;
 mod sink;
 
 pub use read::{ReadError, Results, read_frames};
+pub use run_log::read_run_log;
 pub use sink::{ParquetSink, SinkError};
 
 /// Key of the schema's version in the key-value metadata.
