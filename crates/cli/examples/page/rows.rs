@@ -28,9 +28,14 @@ struct Plan<'a> {
 pub fn small() -> Made {
     made(&Plan {
         study: "<script>alert(1)</script>",
-        sessions: ["</script><script>alert(2)</script>", "\"'><img src=x onerror=alert(3)>", "..\u{2028}&amp;", "s\u{e9}ance 4"]
-            .map(str::to_owned)
-            .into(),
+        sessions: [
+            "</script><script>alert(2)</script>",
+            "\"'><img src=x onerror=alert(3)>",
+            "..\u{2028}&amp;",
+            "s\u{e9}ance 4",
+        ]
+        .map(str::to_owned)
+        .into(),
         objects: &["<b>bowl</b> & \"cup\"", "plate' onclick='alert(4)", "\u{8336}\u{7897}"],
         raters: &["anna", "<i>ben</i>"],
         images: 20,
@@ -65,7 +70,11 @@ fn made(plan: &Plan<'_>) -> Made {
         settings: serde_json::json!({"select": {"target_pitch_deg": 55.0, "pitch_tolerance_deg": 7.5}}),
         tables: Vec::new(),
         sessions: plan.sessions.iter().enumerate().map(status).collect(),
-        inputs_sha256: plan.sessions.iter().map(|name| (format!("cards/{name}"), "0123456789abcdef".repeat(4))).collect(),
+        inputs_sha256: plan
+            .sessions
+            .iter()
+            .map(|name| (format!("cards/{name}"), "0123456789abcdef".repeat(4)))
+            .collect(),
     };
     let log = RunLog {
         started_utc: "2026-03-01T20:00:00Z".to_owned(),

@@ -1,6 +1,8 @@
 // Rows of JSON, of which the document holds one page at a time.
 
 const PAGE_ROWS = 100;
+/** A longer table has only its page that is shown printed. */
+const MOST_ROWS_ON_PAPER = 2000;
 
 /** What a cell of JSON says, for people. */
 function cellText(grid, column, cell) {
@@ -103,7 +105,8 @@ class GridTable {
 
   /** Row numbers of the page that is shown. */
   visible() {
-    return this.places.slice(this.page * this.pageRows, (this.page + 1) * this.pageRows);
+    const from = this.page === 0 ? 0 : this.page * this.pageRows; // 0 x Infinity is not a number
+    return this.places.slice(from, from + this.pageRows);
   }
 
   show() {
@@ -129,6 +132,21 @@ class GridTable {
   }
 }
 
+/** Paper has no pager. */
+function showAllOnPaper(table) {
+  if (table.grid.rows.length > MOST_ROWS_ON_PAPER) return;
+  const { pageRows } = table;
+  let kept = 0;
+  addEventListener("beforeprint", () => {
+    [kept, table.page, table.pageRows] = [table.page, 0, Infinity];
+    table.show();
+  });
+  addEventListener("afterprint", () => {
+    [table.page, table.pageRows] = [kept, pageRows];
+    table.show();
+  });
+}
+
 /** Puts pages in place of the first rows of a long table that stand in the document. */
 function startLongTable(table) {
   const grid = dataOf(table.dataset.rows);
@@ -142,5 +160,6 @@ function startLongTable(table) {
   const tools = element("div", { class: "tools single" }, searchField("Filter rows", "filter", find));
   frame.parentElement.querySelector(".first-rows")?.remove();
   paged.update();
+  showAllOnPaper(paged);
   frame.replaceWith(tools, paged.count, paged.scroll, paged.pager);
 }

@@ -35,7 +35,8 @@ class Sheet {
     const text = (name) => this.measurements.text(row, name);
     const picture = this.measurements.pictures(row)[0];
     const [size, sigma, error] = [text("predicted_mm"), text("sigma_mm"), text("error_pct")];
-    const facts = [size && `${size} mm`, sigma && `\u00b1 ${sigma}`, error && `(${error} %)`].filter(Boolean).join(" ");
+    const sized = size && (sigma ? `${size} \u00b1 ${sigma} mm` : `${size} mm`);
+    const facts = [sized, error && `(${error} %)`].filter(Boolean).map((fact) => fact.replaceAll(" ", "\u00a0")).join(" ");
     const about = [text("quantity"), text("method"), text("rater"), text("session")].join(", ");
     return element("li", {}, element("button", { type: "button" },
       picture ? stage(picture, this.measurements.about(row)) : null,

@@ -73,9 +73,10 @@ impl<'a> Answers<'a> {
             stem: "answers".to_owned(),
             label: None,
             title: "Best answers by kind".to_owned(),
-            statistic: "Sigma: standard uncertainty in per cent of the size. Error: 100 (predicted - original) / original; \
+            statistic:
+                "Sigma: standard uncertainty in per cent of the size. Error: 100 (predicted - original) / original; \
                         mean and sample SD are of the signed errors."
-                .to_owned(),
+                    .to_owned(),
             columns,
             rows: groups.iter().map(row).collect(),
             footnotes: Vec::new(),

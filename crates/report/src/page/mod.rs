@@ -67,7 +67,6 @@ struct PageTemplate<'a> {
     figures: Vec<FigureView<'a>>,
     status: Vec<TableView>,
     provenance: Provenance,
-    measurements: usize,
     measurements_json: String,
     pictures: usize,
     pictures_json: String,
@@ -82,7 +81,8 @@ impl Page<'_> {
     pub(crate) fn html(&self, tables: &[Table]) -> Result<String, PageError> {
         let metadata = &self.results.metadata;
         let asked = metadata.tables.len().min(tables.len());
-        let with_files = |tables: &[Table]| tables.iter().map(|table| TableView::of(table, true)).collect::<Result<_, _>>();
+        let with_files =
+            |tables: &[Table]| tables.iter().map(|table| TableView::of(table, true)).collect::<Result<_, _>>();
         let summary = Summary::of(self.results);
         let bare = |table: &Table| TableView::of(table, false);
         let page = PageTemplate {
@@ -96,7 +96,6 @@ impl Page<'_> {
             figures: self.figures.iter().map(FigureView::of).collect(),
             status: status::tables(metadata).iter().map(bare).collect::<Result<_, _>>()?,
             provenance: Provenance::of(metadata, self.log)?,
-            measurements: self.results.rows.len(),
             measurements_json: data::script_json(&measurements::grid(&self.results.rows))?,
             pictures: self.pictures.len(),
             pictures_json: data::script_json(&self.pictures.index())?,

@@ -82,7 +82,11 @@ fn objects_card(rows: &[ResultRow]) -> Card {
     let objects: BTreeSet<&str> = rows.iter().map(|row| row.object.as_str()).collect();
     let people = rows.iter().filter(|row| row.level != Level::Consensus);
     let raters: BTreeSet<&str> = people.map(|row| row.rater.as_str()).collect();
-    Card { label: "Objects", value: objects.len().to_string(), note: format!("marked by {}", counted(raters.len(), "rater")) }
+    Card {
+        label: "Objects",
+        value: objects.len().to_string(),
+        note: format!("marked by {}", counted(raters.len(), "rater")),
+    }
 }
 
 impl Answers<'_> {

@@ -33,8 +33,8 @@ fn plain(name: &str) -> String {
     // The last characters tell images apart, the first do not.
     let skipped = name.chars().count().saturating_sub(LONGEST);
     let plain: String = name.chars().skip(skipped).map(kept).collect();
-    // Windows keeps some short names for devices; none has an underscore.
-    if plain.len() < 6 { format!("{plain}_") } else { plain }
+    // Windows keeps names of up to four characters for devices; none has an underscore.
+    if plain.len() < 5 { format!("{plain}_") } else { plain }
 }
 
 #[cfg(test)]
@@ -48,11 +48,11 @@ mod tests {
             names.file("bench-1", "IMAGES/20210301T150010.250Z.JPG", "camera"),
             "pictures/bench-1/20210301T150010_250Z.camera.jpg"
         );
-        assert_eq!(names.file("../..", "\\..\\con.jpg", "plane"), "pictures/______/____con.plane.jpg");
+        assert_eq!(names.file("../..", "\\..\\con.jpg", "plane"), "pictures/_____/____con.plane.jpg");
         let first = names.file("s\u{e9}ance 1", "a b#?.jpg", "camera");
-        assert_eq!(first, "pictures/s_ance_1/a_b___.camera.jpg");
-        let again = names.file("S ance 1", "A_b #?.jpg", "camera");
-        assert_eq!(again, "pictures/S_ance_1/A_b___-2.camera.jpg");
+        assert_eq!(first, "pictures/s_ance_1/a_b__.camera.jpg");
+        let again = names.file("S ance 1", "A_b?#.jpg", "camera");
+        assert_eq!(again, "pictures/S_ance_1/A_b__-2.camera.jpg");
         assert!(names.file(&"x".repeat(500), &"y".repeat(500), "camera").len() < 150);
     }
 }
