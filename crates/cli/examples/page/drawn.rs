@@ -92,9 +92,9 @@ pub fn figure() -> Figure {
         title: "A line that means nothing".to_owned(),
         caption: "To see how a figure stands on the page <b>&amp; is escaped</b>.".to_owned(),
         alt: "A line that falls from the upper left to the lower right.".to_owned(),
-        svg: "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 600 300\" width=\"600\" height=\"300\"><path d=\"M40 20V260H580\" \
-              fill=\"none\" stroke=\"#333\"/><path d=\"M50 40L570 240\" stroke=\"#135a75\" stroke-width=\"2\"/><text x=\"300\" \
-              y=\"290\" text-anchor=\"middle\" font-size=\"14\">x (mm)</text></svg>"
+        svg: "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 600 300\" role=\"img\" aria-label=\"A line\"><path d=\"M40 20V260H580\" \
+              fill=\"none\" stroke=\"currentColor\"/><path d=\"M50 40L570 240\" stroke=\"#135a75\" stroke-width=\"2\"/><text x=\"300\" \
+              y=\"290\" text-anchor=\"middle\" font-size=\"14\" fill=\"currentColor\">x (mm)</text></svg>"
             .to_owned(),
     }
 }

@@ -89,26 +89,23 @@ fn tables_stand_in_it_with_printed_numbers_and_notes() {
 }
 
 #[test]
-fn figures_are_shown_and_are_files() {
+fn figures_stand_in_the_page_and_very_large_ones_as_pictures() {
     let dir = tempfile::tempdir().unwrap();
-    let figure = Figure {
-        name: "one".to_owned(),
+    let svg = |inside: &str| format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1 1\">{inside}</svg>");
+    let figure = |name: &str, svg: String| Figure {
+        name: name.to_owned(),
         title: "A < B".to_owned(),
         caption: "caption".to_owned(),
         alt: "what it shows \"quoted\"".to_owned(),
-        svg: "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1 1\"/>".to_owned(),
+        svg,
     };
+    let figures = [figure("one", svg("<path d=\"M0 0\"/>")), figure("two", svg(&"<path/>".repeat(3000)))];
     let (results, pictures) = (bench::plates(), Pictures::new(dir.path()));
-    let page = Page {
-        results: &results,
-        log: Some(&RunLog::default()),
-        figures: std::slice::from_ref(&figure),
-        pictures: &pictures,
-    };
+    let page = Page { results: &results, log: Some(&RunLog::default()), figures: &figures, pictures: &pictures };
     let html = std::fs::read_to_string(write_report(&page, dir.path()).unwrap()).unwrap();
-    assert!(html.contains("A &#60; B") && html.contains("alt=\"what it shows &#34;quoted&#34;\""));
-    assert!(html.contains("data:image/svg+xml;base64,PHN2ZyB4"));
-    assert_eq!(std::fs::read_to_string(dir.path().join("figures/one.svg")).unwrap(), figure.svg);
+    assert!(html.contains("A &#60; B") && html.contains("href=\"figures/one.svg\""));
+    assert!(html.contains(&figures[0].svg) && !html.contains(&figures[1].svg));
+    assert!(html.contains("alt=\"what it shows &#34;quoted&#34;\"") && html.contains("data:image/svg+xml;base64,PHN2ZyB"));
 }
 
 #[test]
