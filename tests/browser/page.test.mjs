@@ -38,29 +38,32 @@ describe("every page", () => {
 });
 
 describe("the checks themselves", () => {
-  it("see a defect, a request and a script that came in by a name", async () => {
+  it("see a defect and a request", async () => {
     const { page, asked, said, close } = await open(PAGE_OF.small, { bypassCSP: true });
     await page.evaluate(() => {
       document.querySelector("main").insertAdjacentHTML("beforeend", "<img src='none.png'><p style='color:#ccc;background:#fff'>pale</p>");
     });
-    await assert.rejects(assertAccessible(page, "page"), /image-alt[\s\S]*|color-contrast/);
+    await assert.rejects(assertAccessible(page, "page"), /color-contrast[\s\S]*image-alt/);
     assert.equal(asked.length, 1);
     assert.equal(said.length, 1);
     await close();
   });
 
   it("are not needed to stop a script: the policy does", async () => {
-    const { page, asked, said, close } = await open(PAGE_OF.small);
+    const { page, said, close } = await open(PAGE_OF.small);
+    const stopped = [];
+    page.on("requestfailed", (request) => stopped.push(`${request.url()} ${request.failure().errorText}`));
     const ran = await page.evaluate(async () => {
       const script = document.createElement("script");
       script.textContent = "globalThis.broken = true";
       document.body.append(script);
-      document.body.insertAdjacentHTML("beforeend", "<img src='https://example.org/a.png' onerror='globalThis.broken = true'>");
+      document.body.insertAdjacentHTML("beforeend", "<img src='https://example.invalid/a.png' onerror='globalThis.broken = true'>");
       await new Promise((done) => setTimeout(done, 200));
       return globalThis.broken;
     });
+    // Its own handler, which a name might bring along, is stopped as well.
     assert.equal(ran, undefined);
-    assert.deepEqual(asked, []);
+    assert.deepEqual(stopped, ["https://example.invalid/a.png csp"], "stopped before it left");
     assert.ok(said.length > 0 && said.every((line) => line.includes("Content Security Policy")), said.join("\n"));
     await close();
   });
