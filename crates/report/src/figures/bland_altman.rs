@@ -88,16 +88,17 @@ fn draw_agreement(drawing: &mut Drawing, panel: &Panel, rows: &[Erring<'_>]) {
     let Some(summary) = summary(rows) else { return };
     panel.level(drawing, "bias", BIAS, summary.bias);
     let Some([low, high]) = summary.limits else { return };
-    let mut last = f64::INFINITY;
-    for (value, paint) in [(low, Some(LIMIT)), (summary.bias, None), (high, Some(LIMIT))] {
-        if let Some(paint) = paint {
-            panel.level(drawing, "limit", paint, value);
-        }
+    for limit in [low, high] {
+        panel.level(drawing, "limit", LIMIT, limit);
+    }
+    let mut taken: Vec<f64> = Vec::new();
+    for value in [summary.bias, low, high] {
         // A label that would lie on another is left out: table accuracy has the numbers.
         let y = panel.y.at(value) - 3.0;
-        if panel.y.holds(value) && last - y >= 11.0 && y - 8.0 >= panel.top() {
+        let is_free = taken.iter().all(|taken| (taken - y).abs() >= 11.0) && y - 8.0 >= panel.top();
+        if panel.y.holds(value) && is_free {
             drawing.text(Text::new(panel.right() - 2.0, y, Anchor::End, signed(value, 1)).small());
-            last = y;
+            taken.push(y);
         }
     }
 }

@@ -23,6 +23,8 @@ const POINT: Look = Look::filled(Symbol::Diamond, Colour::Blue);
 
 /// 95 % of a Gaussian lie within so many SDs.
 pub(super) const K_95: f64 = 1.959_963_984_540_054;
+/// An uncertainty below a nanometre is none: its square may be zero.
+const LEAST_SIGMA_MM: f64 = 1e-6;
 /// Steps of the curve for one standard uncertainty.
 const STEPS: u32 = 20;
 /// The curve ends at so many standard uncertainties.
@@ -35,7 +37,7 @@ pub(super) struct Claimed<'a> {
     pub(super) sigma_mm: f64,
 }
 
-/// Sizes with a truth and an uncertainty above zero whose method claims to apply: by level (rows) and method (columns).
+/// Sizes with a truth and an uncertainty whose method claims to apply: by level (rows) and method (columns).
 pub(super) struct Claims<'a> {
     pub(super) levels: Vec<Level>,
     pub(super) methods: Vec<Method>,
@@ -46,7 +48,7 @@ impl<'a> Claims<'a> {
     pub(super) fn of(results: &'a Results) -> Self {
         let of_level = |level| {
             erring(&results.rows, level).filter(|erring| erring.row.doubts.is_empty()).filter_map(|erring| {
-                let sigma_mm = erring.row.sigma_mm.filter(|sigma| *sigma > 0.0 && is_drawable(*sigma))?;
+                let sigma_mm = erring.row.sigma_mm.filter(|sigma| *sigma >= LEAST_SIGMA_MM && is_drawable(*sigma))?;
                 Some(Claimed { row: erring.row, error_mm: erring.error_mm.abs(), sigma_mm })
             })
         };

@@ -19,7 +19,7 @@ const LOST: Paint =
     Paint { fill_opacity: 0.1, dash: "2 2", ..Paint { fill: Colour::Ink, ..Paint::line(Colour::Ink, 1.0) } };
 
 const LEFT: f64 = 104.0;
-const RIGHT: f64 = PAGE - 74.0;
+const RIGHT: f64 = PAGE - 100.0;
 const TOP: f64 = 34.0;
 const ROW: f64 = 30.0;
 const BAR: f64 = 17.0;

@@ -2,6 +2,7 @@
 
 use super::drawing::{Anchor, Colour, Drawing, Paint, Text, short};
 use super::scale::{Scale, Tick};
+use super::words::estimated_width;
 
 /// Axes and their ticks.
 pub(super) const AXIS: Paint = Paint::line(Colour::Ink, 1.0);
@@ -47,8 +48,10 @@ impl Panel {
         let tick = |tick: &Tick| format!("M{},{}v{TICK}", short(self.x.at(tick.value)), short(self.bottom()));
         drawing.path("axis", AXIS, ticks.iter().map(tick).collect());
         for tick in ticks.iter().filter(|_| named) {
-            let text = Text::new(self.x.at(tick.value), self.bottom() + 16.0, Anchor::Middle, &tick.label);
-            drawing.text(text.small());
+            // At the right edge a label moves inwards: there may be another panel.
+            let most = self.right() + 6.0 - 0.5 * estimated_width(&tick.label, 10.5);
+            let x = self.x.at(tick.value).min(most.max(self.left()));
+            drawing.text(Text::new(x, self.bottom() + 16.0, Anchor::Middle, &tick.label).small());
         }
     }
 

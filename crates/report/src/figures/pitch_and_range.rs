@@ -13,7 +13,7 @@ use super::marks::{self, Look, Mark, Symbol};
 use super::panel::Panel;
 use super::scale::{Scale, extremes, is_drawable, padded, time, time_ticks};
 use super::settings::Window;
-use super::words::{counted, fitted, named, number};
+use super::words::{counted, estimated_width, fitted, named, number};
 use super::{Made, legend::Sample as Sampled};
 use crate::parquet::Results;
 
@@ -119,7 +119,7 @@ fn draw_session(drawing: &mut Drawing, shared: &Shared, (name, frames): (&str, &
     let pitch = Panel { x, y: Scale::linear(shared.pitch_deg, [top + PITCH, top]) };
     let lower = top + PITCH + 10.0;
     let range = Panel { x, y: Scale::linear(shared.range_cm, [lower + RANGE, lower]) };
-    draw_heading(drawing, (name, frames), &pitch, times[0]);
+    draw_heading(drawing, (name, frames), &pitch);
     if let Some(window) = shared.window {
         drawing.path("window", WINDOW, pitch.rectangle(times, [window.low_deg, window.high_deg]));
         pitch.level(drawing, "window", BORDER, window.low_deg);
@@ -136,14 +136,18 @@ fn draw_session(drawing: &mut Drawing, shared: &Shared, (name, frames): (&str, &
             drawing.text(Text::new(16.0, middle, Anchor::Middle, label).turned());
         }
     }
+    if let Some([begin, _]) = extremes(frames.iter().filter_map(|frame| posix_s(frame))) {
+        let date = Text::new(left, range.bottom() + 29.0, Anchor::Start, time(begin, "%Y-%m-%d"));
+        drawing.text(date.small());
+    }
     draw_values(drawing, &pitch, frames, |frame| frame.pitch_deg.filter(|pitch| is_drawable(*pitch)));
     draw_values(drawing, &range, frames, |frame| range_cm(&frame));
 }
 
-fn draw_heading(drawing: &mut Drawing, (name, frames): (&str, &[&FrameRow]), panel: &Panel, begin_s: f64) {
+fn draw_heading(drawing: &mut Drawing, (name, frames): (&str, &[&FrameRow]), panel: &Panel) {
     let selected = frames.iter().filter(|frame| is_selected(frame)).count();
-    let right = format!("{}, {selected} of {}", time(begin_s, "%Y-%m-%d"), frames.len());
-    let width = panel.right() - panel.left() - 6.6 * right.chars().count() as f64;
+    let right = format!("{selected} of {}", frames.len());
+    let width = panel.right() - panel.left() - estimated_width(&right, 10.5);
     let text = Text::new(panel.left(), panel.top() - 6.0, Anchor::Start, fitted(name, width, 10.5));
     drawing.text(text.small().bold().standing_for(&named(name)));
     drawing.text(Text::new(panel.right(), panel.top() - 6.0, Anchor::End, right).small());
@@ -179,7 +183,9 @@ fn draw_values(drawing: &mut Drawing, panel: &Panel, frames: &[&FrameRow], value
 }
 
 fn title(frame: &FrameRow) -> String {
-    let shown = |value: Option<f64>, unit: &str| value.map(|value| format!(", {} {unit}", number(value, 1)));
+    let shown = |value: Option<f64>, unit: &str| {
+        value.filter(|value| is_drawable(*value)).map(|value| format!(", {} {unit}", number(value, 1)))
+    };
     format!(
         "{}: {}{}{}",
         named(&frame.image),
@@ -207,7 +213,7 @@ fn caption(all: usize, shown: &[(&str, Vec<&FrameRow>)], window: Option<Window>)
     };
     text.push_str(
         "Pitch of the camera (depression of its axis below the horizontal) and range along its axis at the time of every \
-         image, with the day and how many of the session's images are selected.",
+         image, with the day of the first, and how many of the session's images are selected.",
     );
     if let Some(window) = window {
         text.push_str(&format!(" Shaded: pitch from {}.", window.name()));

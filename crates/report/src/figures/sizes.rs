@@ -13,7 +13,7 @@ use super::marks::Look;
 use super::panel::Panel;
 use super::sample;
 use super::scale::{Scale, extremes, is_drawable, padded};
-use super::words::{counted, fitted, listed, named, number};
+use super::words::{counted, estimated_width, fitted, listed, named, number};
 use crate::parquet::Results;
 
 const NAME: &str = "sizes";
@@ -23,6 +23,7 @@ const TITLE: &str = "Sizes with their uncertainties";
 const MOST_PANELS: usize = 24;
 const MOST_ROWS: usize = 16;
 
+/// Room for names, at most.
 const NAMES: f64 = 146.0;
 const GAP: f64 = 16.0;
 const COLUMN: f64 = 0.5 * (PAGE - GAP);
@@ -58,14 +59,15 @@ pub(super) fn made(results: &Results) -> Made {
     let all = blocks.iter().map(|block| block.sizes.len()).sum();
     let shown = &blocks[..blocks.len().min(MOST_PANELS)];
     let entries = legend_entries(shown);
-    let top = 10.0 + legend::height(&entries, PAGE - NAMES);
+    let names = names_width(shown);
+    let top = 10.0 + legend::height(&entries, PAGE - names);
     let places = places(shown, top);
     let height = places.iter().map(|(_, bottom)| bottom + BELOW).fold(top, f64::max) + 24.0;
     let mut drawing = Drawing::new(PAGE, height);
-    legend::draw(&mut drawing, &entries, [NAMES, 4.0], PAGE - NAMES);
+    legend::draw(&mut drawing, &entries, [names, 4.0], PAGE - names);
     for (index, (block, place)) in shown.iter().zip(&places).enumerate() {
         let left = if index % 2 == 0 { 0.0 } else { COLUMN + GAP };
-        draw_block(&mut drawing, block, left, *place);
+        draw_block(&mut drawing, block, [left + names, left + COLUMN - 8.0], *place);
     }
     drawing.text(Text::new(0.5 * PAGE, height - 6.0, Anchor::Middle, "size (mm)"));
     Made::drawn(NAME, TITLE, [caption(method, all, &blocks), alt(shown)], drawing)
@@ -82,7 +84,19 @@ fn blocks<'a>(rows: impl Iterator<Item = &'a ResultRow>) -> Vec<Block<'a>> {
     blocks.into_iter().map(block).collect()
 }
 
+/// Width of the longest name.
+fn names_width(blocks: &[Block<'_>]) -> f64 {
+    let names = blocks.iter().flat_map(|block| block.shown().iter().map(|size| block.name(size.row)));
+    names.map(|name| estimated_width(&name, 10.5) + 12.0).fold(60.0, f64::max).min(NAMES)
+}
+
 impl Block<'_> {
+    /// The session, and the rater where the block has several.
+    fn name(&self, row: &ResultRow) -> String {
+        let several = self.shown().iter().any(|size| size.row.rater != self.sizes[0].row.rater);
+        if several { format!("{}, {}", named(&row.session), named(&row.rater)) } else { named(&row.session) }
+    }
+
     fn shown(&self) -> &[Size<'_>] {
         &self.sizes[..self.sizes.len().min(MOST_ROWS)]
     }
@@ -110,34 +124,26 @@ fn truth(size: &Size<'_>) -> Option<f64> {
     size.row.truth_mm.filter(|truth| is_drawable(*truth))
 }
 
-fn draw_block(drawing: &mut Drawing, block: &Block<'_>, left: f64, (top, bottom): (f64, f64)) {
+fn draw_block(drawing: &mut Drawing, block: &Block<'_>, [left, right]: [f64; 2], (top, bottom): (f64, f64)) {
     let ends = |size: &Size<'_>| {
         let half = size.half_mm.unwrap_or_default();
         [Some(size.predicted_mm - half), Some(size.predicted_mm + half), truth(size)].into_iter().flatten()
     };
     let Some(domain) = padded(block.shown().iter().flat_map(ends), 0.06) else { return };
-    let panel = Panel {
-        x: Scale::linear(domain, [left + NAMES, left + COLUMN - 8.0]),
-        y: Scale::linear([0.0, 1.0], [bottom, top]),
-    };
-    let several = block.shown().iter().any(|size| size.row.rater != block.sizes[0].row.rater);
-    let object = fitted(block.object, COLUMN - NAMES - 70.0, 10.5);
+    let panel = Panel { x: Scale::linear(domain, [left, right]), y: Scale::linear([0.0, 1.0], [bottom, top]) };
+    let object = fitted(block.object, right - left - 70.0, 10.5);
     let heading = Text::new(panel.left(), top - 7.0, Anchor::Start, format!("{object}, {}", block.quantity)).small();
     drawing.text(heading.bold().standing_for(&format!("{}, {}", named(block.object), block.quantity)));
     for (index, size) in block.shown().iter().enumerate() {
         #[expect(clippy::cast_precision_loss, reason = "a handful of lines")]
         let y = top + 3.0 + LINE * (index as f64 + 0.5);
         draw_size(drawing, &panel, size, y);
-        let name = name(size.row, several);
+        let name = block.name(size.row);
         let text = Text::new(panel.left() - 7.0, y + 3.8, Anchor::End, fitted(&name, NAMES - 10.0, 10.5));
         drawing.text(text.small().standing_for(&name));
     }
     panel.x_ticks(drawing, &panel.x.ticks(4), true);
     panel.frame(drawing);
-}
-
-fn name(row: &ResultRow, with_rater: bool) -> String {
-    if with_rater { format!("{}, {}", named(&row.session), named(&row.rater)) } else { named(&row.session) }
 }
 
 fn draw_size(drawing: &mut Drawing, panel: &Panel, size: &Size<'_>, y: f64) {

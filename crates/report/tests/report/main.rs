@@ -5,6 +5,7 @@ extern crate aim_batch_report as report;
 
 mod bench;
 mod compare;
+mod documents;
 mod drawn;
 mod escaping;
 mod figures;
