@@ -10,8 +10,9 @@ pub(super) fn short(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// A colour that is told apart from the others by people who see colours differently (Okabe and Ito, Color Universal
-/// Design, 2008), and has a contrast of at least 3 with both a white and a nearly black page (WCAG 2.2, 1.4.11).
+/// A colour that is told apart from the others by people who see colours differently (after Okabe and Ito, Color Universal
+/// Design, 2008; the blue lighter), and has a contrast of at least 3 with both a white and a nearly black page (WCAG 2.2,
+/// 1.4.11).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Colour {
     None,
@@ -27,7 +28,7 @@ impl Colour {
         match self {
             Self::None => "none",
             Self::Ink => "currentColor",
-            Self::Blue => "#0072b2",
+            Self::Blue => "#1f87c9",
             Self::Vermilion => "#d55e00",
             Self::Green => "#009e73",
         }
@@ -183,4 +184,32 @@ struct Svg<'a> {
 pub(super) fn svg(drawing: &Drawing, [name, title, alt]: [&str; 3], standalone: bool) -> String {
     // Writing to memory does not fail, and the template has no filter that could.
     Svg { name, title, alt, standalone, drawing }.render().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance of WCAG 2.2.
+    fn luminance(code: &str) -> f64 {
+        let channel = |at: usize| {
+            let value = f64::from(u8::from_str_radix(&code[at..at + 2], 16).expect("hexadecimal")) / 255.0;
+            if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+        };
+        0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5)
+    }
+
+    #[test]
+    fn colours_are_seen_on_white_and_on_dark_pages() {
+        for colour in [Colour::Blue, Colour::Vermilion, Colour::Green] {
+            let luminance_of = luminance(colour.code()) + 0.05;
+            let contrasts = [1.05 / luminance_of, luminance_of / (luminance("#1b1b1b") + 0.05)];
+            assert!(contrasts.iter().all(|contrast| *contrast >= 3.0), "{colour:?}: {contrasts:?}");
+        }
+    }
+
+    #[test]
+    fn places_are_short() {
+        assert_eq!([12.04, 12.0, -0.01, 3.25].map(short), ["12", "12", "0", "3.2"]);
+    }
 }

@@ -51,7 +51,12 @@ impl Scale {
 
     /// About `most` ticks at round values.
     pub(super) fn ticks(&self, most: usize) -> Vec<Tick> {
-        if self.logarithmic { log_ticks(self.domain) } else { linear_ticks(self.domain, most) }
+        if self.logarithmic {
+            return log_ticks(self.domain);
+        }
+        // One tick does not make a scale: a finer step where round values are few.
+        let all = (most..most + 4).map(|most| linear_ticks(self.domain, most));
+        all.reduce(|found, finer| if found.len() < 3 { finer } else { found }).unwrap_or_default()
     }
 }
 
