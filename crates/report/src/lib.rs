@@ -6,6 +6,7 @@
 //! - [`tables`] makes the tables that the study asks for; [`sizes`], [`error_by_pitch`] and [`error_by_height`] three more;
 //!   [`accuracy`], [`rater_agreement`] and [`methods`] hold sizes, raters and methods against the truth and each other;
 //!   [`flow`] and [`left_out`] tell what became of the images.
+//! - [`figures()`] draws the figures of a run as SVG, [`write_figures`] writes them.
 //! - [`terminal`], [`csv()`], [`markdown`] and [`latex`] draw one [`Table`]; [`write_dir`] writes them all.
 //! - [`write_report`] writes the tables with a [`Page`]: `index.html`, which shows all of it, with [`Figure`]s and [`Pictures`].
 //! - [`compare`] holds the tables against a folder of expected ones: a gate for automatic runs.
@@ -16,6 +17,7 @@
 mod atomic;
 mod compare;
 mod figure;
+mod figures;
 mod page;
 mod parquet;
 mod render;
@@ -27,6 +29,7 @@ mod write_report;
 pub use atomic::{FileError, write as write_file};
 pub use compare::{CompareError, Comparison, Difference, compare};
 pub use figure::Figure;
+pub use figures::{FigureLeftOut, Figures, figures, write_figures};
 pub use page::{Page, PageError, PictureError, Pictures};
 pub use parquet::{ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, read_run_log, run_file};
 pub use render::{csv, latex, markdown, terminal, terminal_set};

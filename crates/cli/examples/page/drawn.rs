@@ -1,4 +1,4 @@
-//! A drawn table with a plate, its marks, and a figure.
+//! A drawn table with a plate, and its marks.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -6,7 +6,6 @@ use std::io::Cursor;
 
 use image::{ImageFormat, Rgb, RgbImage};
 use model::{Feature, GalleryMark, GalleryPicture, PictureView, ResultRow};
-use report::Figure;
 
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 480;
@@ -84,17 +83,4 @@ fn rim(scale: f64) -> Vec<[f64; 2]> {
         [cx + scale * a * angle.cos(), cy + scale * b * angle.sin()]
     };
     (0..48).map(point).collect()
-}
-
-pub fn figure() -> Figure {
-    Figure {
-        name: "made_up".to_owned(),
-        title: "A line that means nothing".to_owned(),
-        caption: "To see how a figure stands on the page <b>&amp; is escaped</b>.".to_owned(),
-        alt: "A line that falls from the upper left to the lower right.".to_owned(),
-        svg: "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 600 300\" role=\"img\" aria-label=\"A line\"><path d=\"M40 20V260H580\" \
-              fill=\"none\" stroke=\"currentColor\"/><path d=\"M50 40L570 240\" stroke=\"#135a75\" stroke-width=\"2\"/><text x=\"300\" \
-              y=\"290\" text-anchor=\"middle\" font-size=\"14\" fill=\"currentColor\">x (mm)</text></svg>"
-            .to_owned(),
-    }
 }

@@ -1,7 +1,7 @@
 //! Makes a report from a made-up study, to look at and to test in a browser: every number in it is made up.
 //!
 //! `cargo run --example page -- small DIR` has names that mean something to HTML, JSON and file systems, a failed session,
-//! pictures with marks, and a figure. `... large DIR` has 10,000 measurements and 50,000 images. Both write DIR/results.parquet
+//! and pictures with marks. `... large DIR` has 10,000 measurements and 50,000 images. Both write DIR/results.parquet
 //! with its ledger, from which `aim-batch report` makes a report without pictures, and DIR/report with pictures.
 
 #![allow(clippy::print_stdout, reason = "tells what it made")]
@@ -14,7 +14,9 @@ use std::time::Instant;
 
 use anyhow::{Context as _, bail};
 use model::{GallerySink as _, ResultSink as _};
-use report::{Figure, Page, ParquetSink, Pictures, Results, frames_file, read_run_log, run_file, write_report};
+use report::{
+    Page, ParquetSink, Pictures, Results, figures, frames_file, read_run_log, run_file, write_figures, write_report,
+};
 use rows::Made;
 
 fn main() -> anyhow::Result<()> {
@@ -34,7 +36,9 @@ fn main() -> anyhow::Result<()> {
     println!("{} pictures in {:.1} s", pictures.len(), begun.elapsed().as_secs_f64());
     let begun = Instant::now();
     let log = read_run_log(&run_file(&dir.join("results.parquet")), &results.metadata);
-    let figures: [Figure; 1] = [drawn::figure()];
+    let frames: Vec<_> = made.sessions.iter().flat_map(|(_, frames)| frames.clone()).collect();
+    let figures = figures(&results, &frames);
+    write_figures(&figures, &report)?;
     let page = Page { results: &results, log: log.as_ref(), figures: &figures, pictures: &pictures };
     let file = write_report(&page, &report)?;
     println!("{} rows: {} in {:.1} s", results.rows.len(), file.display(), begun.elapsed().as_secs_f64());

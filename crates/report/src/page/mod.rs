@@ -21,7 +21,7 @@ use model::RunLog;
 
 pub use pictures::{PictureError, Pictures};
 
-use crate::figure::Figure;
+use crate::figures::{FigureLeftOut, Figures};
 use crate::parquet::Results;
 use crate::table::Table;
 use assets::{SCRIPT, STYLE};
@@ -48,8 +48,8 @@ pub struct Page<'a> {
     pub results: &'a Results,
     /// When and how long the run was at work, where that is known.
     pub log: Option<&'a RunLog>,
-    /// Drawings, in their order on the page.
-    pub figures: &'a [Figure],
+    /// Drawings, in their order on the page, and those for which there are no data.
+    pub figures: &'a Figures,
     /// Pictures with marks; rows without one show their numbers alone.
     pub pictures: &'a Pictures,
 }
@@ -65,6 +65,7 @@ struct PageTemplate<'a> {
     asked: Vec<TableView>,
     more: Vec<TableView>,
     figures: Vec<FigureView<'a>>,
+    figures_left_out: &'a [FigureLeftOut],
     status: Vec<TableView>,
     provenance: Provenance,
     measurements_json: String,
@@ -93,7 +94,8 @@ impl Page<'_> {
             summary,
             asked: with_files(&tables[..asked])?,
             more: with_files(&tables[asked..])?,
-            figures: self.figures.iter().map(FigureView::of).collect(),
+            figures: self.figures.drawn.iter().map(FigureView::of).collect(),
+            figures_left_out: &self.figures.left_out,
             status: status::tables(metadata).iter().map(bare).collect::<Result<_, _>>()?,
             provenance: Provenance::of(metadata, self.log)?,
             measurements_json: data::script_json(&measurements::grid(&self.results.rows))?,

@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use model::{Feature, GalleryMark, GalleryPicture, GallerySink as _, PictureView, RunLog};
-use report::{Figure, Page, Pictures, Results, write_report};
+use report::{Figure, Figures, Page, Pictures, Results, write_report};
 
 use crate::bench;
 
 const NASTY: &str = "</script><script>alert(1)</script> \"'\u{2028}&";
 
 fn page_of(results: &Results, pictures: &Pictures, dir: &Path) -> String {
-    let page = Page { results, log: None, figures: &[], pictures };
+    let page = Page { results, log: None, figures: &Figures::default(), pictures };
     let file = write_report(&page, dir).unwrap();
     assert_eq!(file, dir.join("index.html"));
     std::fs::read_to_string(file).unwrap()
@@ -99,13 +99,16 @@ fn figures_stand_in_the_page_and_very_large_ones_as_pictures() {
         alt: "what it shows \"quoted\"".to_owned(),
         svg,
     };
-    let figures = [figure("one", svg("<path d=\"M0 0\"/>")), figure("two", svg(&"<path/>".repeat(3000)))];
+    let mut figures = Figures::default();
+    figures.drawn = vec![figure("one", svg("<path d=\"M0 0\"/>")), figure("two", svg(&"<path/>".repeat(3000)))];
     let (results, pictures) = (bench::plates(), Pictures::new(dir.path()));
     let page = Page { results: &results, log: Some(&RunLog::default()), figures: &figures, pictures: &pictures };
     let html = std::fs::read_to_string(write_report(&page, dir.path()).unwrap()).unwrap();
     assert!(html.contains("A &#60; B") && html.contains("href=\"figures/one.svg\""));
-    assert!(html.contains(&figures[0].svg) && !html.contains(&figures[1].svg));
-    assert!(html.contains("alt=\"what it shows &#34;quoted&#34;\"") && html.contains("data:image/svg+xml;base64,PHN2ZyB"));
+    assert!(html.contains(&figures.drawn[0].svg) && !html.contains(&figures.drawn[1].svg));
+    assert!(
+        html.contains("alt=\"what it shows &#34;quoted&#34;\"") && html.contains("data:image/svg+xml;base64,PHN2ZyB")
+    );
 }
 
 #[test]
