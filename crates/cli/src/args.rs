@@ -87,6 +87,10 @@ pub struct RunArgs {
     /// there stay as they are
     #[arg(long, value_name = "DIR")]
     pub write_marks: Option<PathBuf>,
+    /// Also write recordings with marks, sizes and signals for Foxglove and Rerun (docs/viewers.md):
+    /// WORK/annotated/SESSION.annotated.mcap
+    #[arg(long)]
+    pub annotate: bool,
     /// Also write the tables to this folder (CSV, Markdown, LaTeX)
     #[arg(long, env = "AIM_BATCH_REPORT")]
     pub report: Option<PathBuf>,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
-use pipeline::{Halted, Holder, MarksWritten, RunError, RunOptions, WriteMarksError};
+use pipeline::{Annotated, Halted, Holder, MarksWritten, NotAnnotated, RunError, RunOptions, WriteMarksError};
 use report::{FileError, SinkError};
 
 use super::summary::{Finished, tell_summary};
@@ -32,10 +32,14 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     let mut sink = sink.map_err(|error| named(error, &options.work_dir))?;
     let progress = bars.for_run();
     let ran = pipeline::run(&study, &options, &progress, &mut sink).map_err(failure)?;
-    drop((sink, progress));
+    drop(sink);
+    let annotated = args.annotate.then(|| pipeline::annotate(&study, &options, &progress)).transpose();
+    drop(progress);
     let marks = args.write_marks.as_deref();
     let marks = marks.map(|folder| Ok((folder, pipeline::write_marks(&study, &options.work_dir, PROGRAM, folder)?)));
     let marks = marks.transpose().map_err(|error: WriteMarksError| Failure::Failed(error.into()))?;
+
+    let annotated = annotated.map_err(|halted| failure(halted.into()))?;
 
     let mut results = ::report::Results::read(out)?;
     results.read_flow(&frames)?;
@@ -49,6 +53,9 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     if let Some((folder, written)) = marks {
         tell_marks(written, folder, format);
     }
+    if let Some(annotated) = &annotated {
+        tell_annotated(annotated, format);
+    }
     if let Some(dir) = &args.expect {
         let comparison = ::report::compare(dir, &results, args.tolerance).map_err(Failure::usage)?;
         tell(&format!("{comparison}\n"));
@@ -59,7 +66,8 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     if ran.sessions.iter().all(|session| session.failed) {
         return Err(Failure::Failed(anyhow!("no session could be used")));
     }
-    Ok(outcome(ran.sessions.iter().any(SessionStatus::has_losses)))
+    let lost = annotated.is_some_and(|annotated| !annotated.failed.is_empty());
+    Ok(outcome(lost || ran.sessions.iter().any(SessionStatus::has_losses)))
 }
 
 fn options(args: &RunArgs) -> Result<RunOptions, Failure> {
@@ -89,6 +97,19 @@ fn tell_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
         tell(&format!(
             "{left} more differ from what would be written, and were left as they are\n  -> remove those that are to be written anew\n"
         ));
+    }
+}
+
+/// How many recordings are there for viewers, and which are not.
+fn tell_annotated(annotated: &Annotated, format: LogFormat) {
+    let Annotated { folder, made, kept, failed } = annotated;
+    if format == LogFormat::Json {
+        tracing::info!(made, kept, failed = failed.len(), "annotated recordings, in {}", folder.display());
+        return; // why some failed has been an event already
+    }
+    tell(&format!("annotated recordings: {made} written, {kept} unchanged in {}\n", folder.display()));
+    for NotAnnotated { session, fact } in failed {
+        tell(&format!("session '{session}' has none: {fact}\n"));
     }
 }
 
