@@ -38,6 +38,7 @@ fn links_lead_somewhere() {
         "docs/inspect.md",
         "docs/rims.md",
         "docs/report.md",
+        "docs/viewers.md",
     ] {
         let folder = root().join(document).parent().unwrap().to_owned();
         for link in text(document).split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link) {

@@ -87,6 +87,10 @@ pub struct RunArgs {
     /// there stay as they are
     #[arg(long, value_name = "DIR")]
     pub write_marks: Option<PathBuf>,
+    /// Also write recordings with marks, sizes and signals for Foxglove and Rerun (docs/viewers.md):
+    /// WORK/annotated/SESSION.annotated.mcap
+    #[arg(long)]
+    pub annotate: bool,
     /// Also write the report to this folder: index.html, and the tables as CSV, Markdown and LaTeX
     #[arg(long, env = "AIM_BATCH_REPORT")]
     pub report: Option<PathBuf>,
@@ -256,6 +260,9 @@ pub struct ReportArgs {
     /// Folder for the report: index.html, and the tables as CSV, Markdown and LaTeX; without it they are only printed
     #[arg(short, long)]
     pub out: Option<PathBuf>,
+    /// Work folder of the run, whose recordings hold the pictures; default: the name of the results with .work
+    #[arg(long, value_name = "DIR", env = "AIM_BATCH_WORK")]
+    pub work: Option<PathBuf>,
 }
 
 /// Where the camera is, for `project` and `measure`.

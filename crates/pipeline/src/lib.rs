@@ -11,6 +11,7 @@
 //! and a remedy; the others complete.
 #![warn(missing_docs)]
 
+mod annotate;
 pub mod calibrate;
 mod check;
 #[cfg(debug_assertions)]
@@ -31,6 +32,7 @@ mod survey;
 mod work;
 mod write_marks;
 
+pub use annotate::{Annotated, NotAnnotated, annotate};
 pub use check::{Checked, check};
 pub use inspect::{inspect_file, inspect_study};
 pub use reporter::{Reporter, Silent, Totals};

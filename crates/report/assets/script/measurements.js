@@ -57,10 +57,9 @@ function shortImages(grid) {
   return { columns, rows, words: grid.words };
 }
 
-function startMeasurements(place) {
+function startMeasurements(place, index) {
   const grid = dataOf("measurements-data");
-  const pictures = dataOf("pictures-data");
-  const measurements = new Measurements(grid, new PictureIndex(pictures));
+  const measurements = new Measurements(grid, index);
   const viewer = new Viewer(document.getElementById("viewer"), measurements);
   const table = new GridTable(shortImages(grid), "Measurements", (at) => viewer.open(table, at));
   const changed = () => table.update();
@@ -68,7 +67,7 @@ function startMeasurements(place) {
     table.rows.search(words);
     changed();
   };
-  const sheet = pictures.length > 0 ? new Sheet(table, measurements, (at) => viewer.open(table, at)) : null;
+  const sheet = index.byImage.size > 0 ? new Sheet(table, measurements, (at) => viewer.open(table, at)) : null;
   const tools = element("div", { class: "tools" },
     searchField("Filter rows", "filter", find), ...choiceFields(table.grid, table.rows, changed).filter(Boolean),
     ...[selectedField(table.grid, table.rows, changed), sheet?.switch].filter(Boolean));

@@ -22,9 +22,9 @@ class PictureIndex {
 
 const VIEWS = { camera: "As taken", corrected: "Lens corrected", plane: "On the table plane" };
 
-/** Whether a mark is of the row: all raters' for a row of all. */
-function isOfRow(mark, { object, rater, level }) {
-  return mark.object === object && (mark.rater === rater || level === "consensus");
+/** Whether a mark is of the row: all raters' for a row of all; of no row in particular every mark is. */
+function isOfRow(mark, { object, rater, level, all = false }) {
+  return all || mark.object === object && (mark.rater === rater || level === "consensus");
 }
 
 /** The picture with its marks over it; those of the row stand out, others are dashed. */

@@ -24,6 +24,7 @@ pub(super) const SCRIPT: &str = concat!(
     include_str!("../../assets/script/measurements.js"),
     include_str!("../../assets/script/sheet.js"),
     include_str!("../../assets/script/viewer.js"),
+    include_str!("../../assets/script/examples.js"),
     include_str!("../../assets/script/main.js"),
     "})();\n",
 );
