@@ -179,7 +179,7 @@ fn rims_are_on_the_pictures_that_people_mark() {
 }
 
 /// The largest chunk holds pictures: a byte in the last third of the file is one of theirs.
-fn damage(recording: &Path) {
+pub fn damage(recording: &Path) {
     let mut bytes = std::fs::read(recording).unwrap();
     let at = bytes.len() * 2 / 3;
     bytes[at] ^= 0xff;
@@ -204,7 +204,7 @@ fn the_same_bytes_however_a_run_came_about() {
 }
 
 /// The picture as PNG, whole by its checksums, with a first block that is not zlib's.
-fn undecodable(jpeg: &[u8]) -> Vec<u8> {
+pub fn undecodable(jpeg: &[u8]) -> Vec<u8> {
     let mut png = std::io::Cursor::new(Vec::new());
     image::load_from_memory(jpeg).unwrap().write_to(&mut png, image::ImageFormat::Png).unwrap();
     let mut png = png.into_inner();

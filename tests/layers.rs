@@ -18,10 +18,10 @@ const LAYERS: [(&str, &[&str]); 6] = [
 const HOMES: [(&[&str], &[&str], &str); 8] = [
     (&["mcap", "foxglove", "prost"], &["ingest"], "only ingest knows what a recording looks like inside"),
     (
-        // simulate writes pictures, which is no decoding.
+        // simulate writes pictures, which is no decoding; ingest writes small ones for reports and viewers.
         &["image", "jpeg-encoder"],
         &["ingest", "simulate"],
-        "pictures are decoded by ingest alone; simulate encodes those that it renders",
+        "pictures are decoded and reduced by ingest alone; simulate encodes those that it renders",
     ),
     (&["zune-jpeg", "turbojpeg", "png", "kamadak-exif"], &["ingest"], "pictures are decoded by ingest alone"),
     (&["rayon"], &["pipeline", "simulate"], "work is shared out by pipeline over sessions, and by simulate's renderer"),

@@ -16,6 +16,7 @@ pub mod calibrate;
 mod check;
 #[cfg(debug_assertions)]
 mod fault;
+mod gallery;
 mod inputs;
 pub mod inspect;
 pub mod labelme;
@@ -34,6 +35,7 @@ mod write_marks;
 
 pub use annotate::{Annotated, NotAnnotated, annotate};
 pub use check::{Checked, check};
+pub use gallery::{Gallery, GalleryError, GalleryHalted, GalleryOptions, NotShown, gallery};
 pub use inspect::{inspect_file, inspect_study};
 pub use reporter::{Reporter, Silent, Totals};
 pub use run::{Current, Halted, Ran, RunError, RunOptions, SessionState, StudyState, run, status};

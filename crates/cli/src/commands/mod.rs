@@ -2,6 +2,7 @@
 
 pub mod calibrate;
 pub mod check;
+mod gallery;
 pub mod ingest;
 pub mod inspect;
 pub mod measure;

@@ -9,25 +9,17 @@ use crate::args::ReportArgs;
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
-/// Bound of the decoded pictures in memory at once, as a run has it by default.
-const IMAGE_MEMORY_BYTES: u64 = 256 << 20;
-
 /// Prints the tables, and writes the report when a folder is given.
 pub fn run(args: &ReportArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let mut results = Results::read(&args.results)?;
-    let lost = read_flow(&mut results, args)?;
+    let mut lost = read_flow(&mut results, args)?;
     print(&tables_text(&results))?;
     if let Some(dir) = &args.out {
         let work_dir = args.work.clone().unwrap_or_else(|| args.results.with_extension("work"));
-        let source = page::Source {
-            out: &args.results,
-            work_dir: &work_dir,
-            jobs: None,
-            image_memory_bytes: IMAGE_MEMORY_BYTES,
-            stop: stop_on_signals()?,
-        };
-        let page = page::write(&results, &source, dir, bars)?;
-        tell(&format!("wrote {}\n", page.display()));
+        let source = page::Source { out: &args.results, work_dir: &work_dir, stop: stop_on_signals()? };
+        let written = page::write(&results, source, dir, bars)?;
+        lost |= written.lost;
+        tell(&format!("wrote {}\n", written.page.display()));
     }
     Ok(outcome(lost))
 }

@@ -44,7 +44,9 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     let mut results = Results::read(out)?;
     results.read_flow(&frames)?;
     print(&tables_text(&results))?;
-    let page = args.report.as_ref().map(|dir| write_page(&results, args, &options, dir, bars)).transpose()?;
+    let source = || page::Source { out, work_dir: &options.work_dir, stop: options.stop.clone() };
+    let report = args.report.as_ref().map(|dir| page::write(&results, source(), dir, bars)).transpose()?;
+    let (page, shown) = report.map_or((None, true), |report| (Some(report.page), !report.lost));
     let files = [out.clone(), frames, ::report::run_file(out)];
     let files: Vec<PathBuf> = files.into_iter().chain(page).collect();
     tell_summary(&Finished { ran: &ran, files: &files, work_dir: &options.work_dir }, format);
@@ -65,24 +67,7 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
         return Err(Failure::Failed(anyhow!("no session could be used")));
     }
     let lost = annotated.is_some_and(|annotated| !annotated.failed.is_empty());
-    Ok(outcome(lost || ran.sessions.iter().any(SessionStatus::has_losses)))
-}
-
-fn write_page(
-    results: &Results,
-    args: &RunArgs,
-    options: &RunOptions,
-    dir: &Path,
-    bars: &Bars,
-) -> Result<PathBuf, Failure> {
-    let source = page::Source {
-        out: &args.place.out,
-        work_dir: &options.work_dir,
-        jobs: options.jobs,
-        image_memory_bytes: options.image_memory_bytes,
-        stop: options.stop.clone(),
-    };
-    page::write(results, &source, dir, bars)
+    Ok(outcome(lost || !shown || ran.sessions.iter().any(SessionStatus::has_losses)))
 }
 
 fn options(args: &RunArgs) -> Result<RunOptions, Failure> {

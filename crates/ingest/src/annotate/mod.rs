@@ -213,13 +213,16 @@ fn colour(raters: &[String], rater: &str) -> foxglove::messages::Color {
     foxglove::messages::Color { r, g, b, a: 1.0 }
 }
 
-/// `plate: diameter 230.1 ± 1.2 mm`, with all sizes of one object by one rater.
+/// `plate: diameter 230.1 ± 1.2 mm`, with all sizes of one object by one rater, who is named where there are others.
 fn label(notes: &ImageNotes<'_>, object: &str, rater: &str) -> String {
+    let is_alone = notes.marks.iter().filter(|mark| mark.object == object).all(|mark| mark.rater == rater);
+    let name = if is_alone { object.to_owned() } else { format!("{object} ({rater})") };
     let of_object = notes.sizes.iter().filter(|row| row.object == object && row.rater == rater);
-    let size = |row: &&&ResultRow| {
-        let sigma = row.sigma_mm.map(|mm| format!(" ± {mm:.1}")).unwrap_or_default();
-        Some(format!("{} {:.1}{sigma} mm", row.quantity, row.predicted_mm?))
-    };
-    let sizes: Vec<String> = of_object.clone().filter_map(|row| size(&row)).collect();
-    if sizes.is_empty() { object.to_owned() } else { format!("{object}: {}", sizes.join(", ")) }
+    let sizes: Vec<String> = of_object.filter_map(|row| size_text(row)).collect();
+    if sizes.is_empty() { name } else { format!("{name}: {}", sizes.join(", ")) }
+}
+
+fn size_text(row: &ResultRow) -> Option<String> {
+    let sigma = row.sigma_mm.map(|mm| format!(" ± {mm:.1}")).unwrap_or_default();
+    Some(format!("{} {:.1}{sigma} mm", row.quantity, row.predicted_mm?))
 }

@@ -1,6 +1,6 @@
 //! Marks and sizes drawn on a picture, for viewers that show pictures and no overlays.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use ingest::{ImageNotes, MarkNote, Picture};
 use model::{Mark, ObjectMarks, ResultRow, View};
@@ -24,20 +24,24 @@ pub(super) fn drawn(notes: &ImageNotes<'_>, jpeg: &[u8]) -> Result<Vec<u8>, Stri
     picture.to_jpeg(QUALITY).map_err(|error| error.to_string())
 }
 
+/// All raters of an object together: their sizes are written below each other.
 fn objects(notes: &ImageNotes<'_>, shares: [f64; 2]) -> Vec<Drawn> {
-    let mut by_object: BTreeMap<(&str, &str), Vec<&MarkNote>> = BTreeMap::new();
+    let mut by_object: BTreeMap<&str, Vec<&MarkNote>> = BTreeMap::new();
     for mark in &notes.marks {
-        by_object.entry((&mark.rater, &mark.object)).or_default().push(mark);
+        by_object.entry(&mark.object).or_default().push(mark);
     }
-    let drawn = |((rater, object), marks): ((&str, &str), Vec<&MarkNote>)| {
-        let of_object = notes.sizes.iter().filter(|row| row.rater == rater && row.object == object);
+    let drawn = |(object, marks): (&str, Vec<&MarkNote>)| {
+        let raters: BTreeSet<&str> = marks.iter().map(|mark| mark.rater.as_str()).collect();
+        let of_object = notes.sizes.iter().filter(|row| row.object == object);
         Drawn {
             plane_z_mm: marks.iter().filter_map(|mark| mark.plane_z_mm).fold(0.0, f64::max),
             marks: ObjectMarks {
                 object: object.to_owned(),
                 marks: marks.into_iter().filter_map(|mark| resampled(mark, shares)).collect(),
             },
-            text: std::iter::once(object.to_owned()).chain(of_object.filter_map(|row| line(row))).collect(),
+            text: std::iter::once(object.to_owned())
+                .chain(of_object.filter_map(|row| line(row, raters.len() > 1)))
+                .collect(),
         }
     };
     by_object.into_iter().map(drawn).collect()
@@ -55,8 +59,9 @@ fn resampled(mark: &MarkNote, shares: [f64; 2]) -> Option<Mark> {
     }
 }
 
-/// In ASCII, as the drawn letters are.
-fn line(row: &ResultRow) -> Option<String> {
+/// In ASCII, as the drawn letters are; with the rater where there are several.
+fn line(row: &ResultRow, names_rater: bool) -> Option<String> {
+    let rater = if names_rater { format!("{} ", row.rater) } else { String::new() };
     let sigma = row.sigma_mm.map(|mm| format!(" +- {mm:.1}")).unwrap_or_default();
-    Some(format!("{} {:.1}{sigma} mm", row.quantity, row.predicted_mm?))
+    Some(format!("{rater}{} {:.1}{sigma} mm", row.quantity, row.predicted_mm?))
 }

@@ -16,7 +16,8 @@ pub(super) fn placed(shown: &ShownImage, place: impl Fn([f64; 2]) -> Option<[f64
     let hundredths = |point: [f64; 2]| point.map(|c| (c * 100.0).round() / 100.0);
     let of_object = |object: &ShownObject| {
         let marks = object.marks.iter().filter_map(|mark| {
-            let points_px = mark.points_px.iter().map(|point| place(*point).map(hundredths)).collect::<Option<Vec<_>>>()?;
+            let points_px =
+                mark.points_px.iter().map(|point| place(*point).map(hundredths)).collect::<Option<Vec<_>>>()?;
             Some(GalleryMark {
                 object: object.object.clone(),
                 rater: object.rater.clone(),
@@ -38,13 +39,10 @@ pub(super) fn scaled([x, y]: [f64; 2], from_px: [u32; 2], to_px: [u32; 2]) -> [f
 
 /// The marks in a picture that was resampled.
 pub(super) fn resampled(shown: &ShownImage, from_px: [u32; 2], to_px: [u32; 2]) -> ShownImage {
-    let of_mark = |mark: &ShownMark| ShownMark {
-        points_px: mark.points_px.iter().map(|point| scaled(*point, from_px, to_px)).collect(),
-        ..mark.clone()
-    };
-    let of_object = |object: &ShownObject| ShownObject {
-        marks: object.marks.iter().map(of_mark).collect(),
-        ..object.clone()
-    };
-    ShownImage { objects: shown.objects.iter().map(of_object).collect(), ..shown.clone() }
+    let mut resampled = shown.clone();
+    let marks: fn(&mut ShownObject) -> &mut Vec<ShownMark> = |object| &mut object.marks;
+    for point in resampled.objects.iter_mut().flat_map(marks).flat_map(|mark| &mut mark.points_px) {
+        *point = scaled(*point, from_px, to_px);
+    }
+    resampled
 }

@@ -233,11 +233,8 @@ impl Subject<'_> {
         let corrected = corrected::of(&source, view.camera(), &marks);
         let plane = plane::of(&source, &view, &marks);
         let camera = small::of(source, &view, &marks).ok_or("the picture is too flat to be reduced")?;
-        let views = [
-            (PictureView::Camera, Some(camera)),
-            (PictureView::Corrected, corrected),
-            (PictureView::Plane, plane),
-        ];
+        let views =
+            [(PictureView::Camera, Some(camera)), (PictureView::Corrected, corrected), (PictureView::Plane, plane)];
         let shown = views.into_iter().filter_map(|(view, marked)| Some(self.gallery_picture(view, marked?)));
         shown.collect()
     }

@@ -2,7 +2,7 @@
 
 use ingest::Picture;
 use model::View;
-use nalgebra::{Point2, Point3};
+use nalgebra::{Point2, Point3, Vector2};
 
 use super::ink::{across, down, letters};
 use super::marks::{Marked, placed};
@@ -32,8 +32,9 @@ struct Sheet {
 /// None where nothing of what was marked lies on the table before the camera.
 pub(super) fn of(source: &Picture, view: &View, shown: &ShownImage) -> Option<Marked> {
     let on_table = |[x, y]: [f64; 2]| view.on_plane(Point2::new(x, y), 0.0).ok();
-    let points = shown.objects.iter().flat_map(|object| &object.marks).flat_map(|mark| &mark.points_px);
-    let sheet = Sheet::around(points.filter_map(|point| on_table(*point)))?;
+    let marks = shown.objects.iter().flat_map(|object| &object.marks);
+    let of_marks = marks.map(|mark| mark.points_px.iter().filter_map(|point| on_table(*point)).collect::<Vec<_>>());
+    let sheet = Sheet::around(of_marks.flat_map(with_object))?;
     let mut picture = resample(source, sheet.size_px, |x, y| {
         let at_mm = sheet.at_mm(x, y);
         view.pixel_of(Point3::new(at_mm.x, at_mm.y, 0.0)).ok()
@@ -43,9 +44,21 @@ pub(super) fn of(source: &Picture, view: &View, shown: &ShownImage) -> Option<Ma
     Some(Marked { picture, marks })
 }
 
+/// The points of a mark; of a line also the circle that it is a diameter of, since what was measured is as long as wide.
+fn with_object(mut points_mm: Vec<Point2<f64>>) -> Vec<Point2<f64>> {
+    if let &[a, b] = points_mm.as_slice() {
+        let (center, radius) = (nalgebra::center(&a, &b), 0.5 * (b - a).norm());
+        points_mm.extend(
+            [[radius, 0.0], [-radius, 0.0], [0.0, radius], [0.0, -radius]].map(|to| center + Vector2::from(to)),
+        );
+    }
+    points_mm
+}
+
 impl Sheet {
     fn around(points_mm: impl Iterator<Item = Point2<f64>>) -> Option<Self> {
-        let (mut low, mut high) = (Point2::new(f64::INFINITY, f64::INFINITY), Point2::new(-f64::INFINITY, -f64::INFINITY));
+        let (mut low, mut high) =
+            (Point2::new(f64::INFINITY, f64::INFINITY), Point2::new(-f64::INFINITY, -f64::INFINITY));
         for point in points_mm {
             (low, high) = (low.inf(&point), high.sup(&point));
         }
@@ -125,6 +138,15 @@ mod tests {
         let there = found.at_mm(a[0], a[1]);
         assert!((there - Point2::new(-50.0, 300.0)).norm() < 1e-9);
         assert!((found.spacing_mm() - 50.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_diameter_stands_for_its_circle() {
+        let line = with_object([[-100.0, 300.0], [100.0, 300.0]].map(Point2::from).to_vec());
+        let found = Sheet::around(line.into_iter()).unwrap_or_else(|| panic!("a sheet"));
+        assert_eq!(found.size_px, [640, 640]);
+        let rim = [[-50.0, 300.0], [50.0, 300.0], [0.0, 350.0]].map(Point2::from).to_vec();
+        assert_eq!(with_object(rim.clone()), rim);
     }
 
     #[test]

@@ -58,7 +58,8 @@ mod tests {
 
     #[test]
     fn between_pixels_is_between_their_values_and_outside_is_nothing() {
-        let source = Picture { width_px: 2, height_px: 2, rgb: [0, 100, 200, 40].into_iter().flat_map(|g| [g; 3]).collect() };
+        let source =
+            Picture { width_px: 2, height_px: 2, rgb: [0, 100, 200, 40].into_iter().flat_map(|g| [g; 3]).collect() };
         assert_eq!(sample(&source, Point2::new(0.0, 1.0)), Some([200; 3]));
         assert_eq!(sample(&source, Point2::new(0.5, 0.0)), Some([50; 3]));
         assert_eq!(sample(&source, Point2::new(0.5, 0.5)), Some([85; 3]));
