@@ -156,6 +156,22 @@ describe("measurements", () => {
     await close();
   });
 
+  it("of a run show its pictures, in three views for some", async () => {
+    const { page, asked, close } = await open(PAGE_OF.bench);
+    const views = page.locator("#examples img");
+    assert.ok((await views.count()) >= 3);
+    const isThere = async (image) => {
+      await image.scrollIntoViewIfNeeded();
+      return image.evaluate((one) => one.decode().then(() => one.naturalWidth > 100));
+    };
+    assert.ok(await isThere(views.first()));
+    await page.locator("#measurements-table tbody button").first().click();
+    assert.ok(await isThere(page.locator("#viewer img")));
+    assert.ok((await page.locator("#viewer .mark.line").count()) > 0);
+    assert.deepEqual(asked, [], "all of them are in the page");
+    await close();
+  });
+
   it("open by keyboard alone, in any view, and give the focus back", async () => {
     const { page, close } = await open(PAGE_OF.small);
     const first = page.locator("#measurements-table tbody button").first();

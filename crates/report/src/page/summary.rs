@@ -75,7 +75,7 @@ fn sessions_card(results: &Results) -> Card {
 fn images_card(results: &Results) -> Card {
     let (found, selected) = images(results);
     let share = if found > 0 { 100.0 * selected as f64 / found as f64 } else { 0.0 };
-    Card { label: "Images", value: found.to_string(), note: format!("{selected} selected ({share:.0} %)") }
+    Card { label: "Images", value: found.to_string(), note: format!("{selected} selected ({share:.0}\u{a0}%)") }
 }
 
 fn objects_card(rows: &[ResultRow]) -> Card {
