@@ -18,7 +18,8 @@ pub(super) fn config_error(error: &Error, text: &str, path: &Path) -> ConfigErro
 }
 
 /// The known word that is most like `word`.
-pub(crate) fn nearest(word: &str, known: &[String]) -> Option<String> {
+#[must_use]
+pub fn nearest(word: &str, known: &[String]) -> Option<String> {
     let likeness = |candidate: &String| strsim::jaro_winkler(word, candidate);
     known.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b))).cloned()
 }

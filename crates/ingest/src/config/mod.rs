@@ -4,7 +4,7 @@ mod error;
 mod locate;
 
 pub use error::ConfigError;
-pub(crate) use locate::nearest;
+pub use locate::nearest;
 
 use std::fs::File;
 use std::io::Read;
