@@ -36,6 +36,7 @@ fn links_lead_somewhere() {
         "docs/calibration.md",
         "docs/devices.md",
         "docs/inspect.md",
+        "docs/marks.md",
         "docs/rims.md",
     ] {
         let folder = root().join(document).parent().unwrap().to_owned();

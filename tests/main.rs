@@ -14,6 +14,7 @@ mod flow;
 mod inspect;
 mod large;
 mod layers;
+mod marks;
 mod measure;
 mod methods;
 mod project;

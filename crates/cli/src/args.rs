@@ -1,5 +1,7 @@
 //! The command line.
 
+mod marks;
+
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -8,6 +10,7 @@ use model::{Kind, Method, Shape, Wall};
 use pipeline::study::MarksSource;
 
 use crate::logging::LogFormat;
+pub use marks::{MarksArgs, MarksExportArgs, MarksFormat, MarksImportArgs, MarksWay};
 
 /// Measures plates and bowls in recordings of a camera worn on eyeglasses.
 ///
@@ -46,6 +49,8 @@ pub enum Command {
     Inspect(InspectArgs),
     /// What a bench with known sizes tells of a device: calibration.toml, for run --calibration
     Calibrate(CalibrateArgs),
+    /// Marks from and to other annotation tools: CVAT, COCO
+    Marks(MarksArgs),
     /// One SD card to one MCAP file
     Ingest(IngestArgs),
     /// Tables again, from the files that run wrote

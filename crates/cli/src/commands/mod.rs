@@ -4,6 +4,7 @@ pub mod calibrate;
 pub mod check;
 pub mod ingest;
 pub mod inspect;
+pub mod marks;
 pub mod measure;
 mod place;
 mod problems;

@@ -75,7 +75,7 @@ pub fn import(study: &Study, file: &Path, options: &ImportOptions) -> Result<Imp
             Ok(picture) => match marked.insert(picture, &image.place) {
                 None => import.image(image, picture, &mut imported)?,
                 Some(first) => {
-                    let fact = format!("the same picture as {first}: {}", import.pictures.place(picture));
+                    let fact = format!("the same picture as another image of the file ({first}): {}", import.pictures.place(picture));
                     imported.refused.push(at_image(image, fact));
                 }
             },
@@ -91,7 +91,7 @@ fn at_image(image: &ForeignImage, fact: String) -> Refused {
         1 => "1 annotation".to_owned(),
         more => format!("{more} annotations"),
     };
-    Refused { place: format!("{} ({count})", image.place), fact }
+    Refused { place: format!("{}, '{}' ({count})", image.place, short(&image.name)), fact }
 }
 
 fn check_session(study: &Study, session: Option<&str>) -> Result<(), ExchangeError> {
@@ -136,9 +136,12 @@ impl Import<'_> {
         let target = Target::new(self.options, session.dir, prepared, &picture.file);
         let picture_px = target.picture_px();
         if let Some([got_width, got_height]) = image.size_px.filter(|size_px| *size_px != picture_px) {
-            let ([width, height], path) = (picture_px, PathBuf::from(short(&image.name)));
-            let error = MarksError::OtherPicture { path, got_width, got_height, width, height };
-            imported.refused.push(at_image(image, error.to_string()));
+            let [width, height] = picture_px;
+            let fact = format!(
+                "marked on a picture of {got_width} x {got_height} px, but the camera's are {width} x {height}: mark the \
+                 original pictures, or name the camera of the marked ones ([marks] camera in study.toml)"
+            );
+            imported.refused.push(at_image(image, fact));
             return Ok(());
         }
         let placed = self.marks(image, picture_px, imported);

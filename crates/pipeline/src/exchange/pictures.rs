@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use ingest::card::{Card, Patterns};
 
-use super::foreign::short;
 use crate::session::{Prepared, stem_of};
 use crate::study::{SessionDir, Study};
 
@@ -67,8 +66,7 @@ impl<'a> Pictures<'a> {
     pub fn find(&self, name: &str) -> Result<&Picture, String> {
         let name = name.replace('\\', "/");
         let mut parts: Vec<&str> = name.split('/').filter(|part| !matches!(*part, "" | ".")).collect();
-        let stem = stem_of(parts.pop().unwrap_or_default());
-        let of_name = self.by_stem.get(&stem).map(Vec::as_slice).unwrap_or_default();
+        let of_name = self.of_name(parts.pop().unwrap_or_default());
         let named: Vec<usize> = (0..self.sessions.len()).filter(|at| parts.contains(&self.session_name(*at))).collect();
         let in_named = |picture: &&Picture| named.is_empty() || named.contains(&picture.session);
         let candidates: Vec<&Picture> = of_name.iter().filter(in_named).collect();
@@ -80,13 +78,28 @@ impl<'a> Pictures<'a> {
         let best: Vec<&Picture> = candidates.into_iter().filter(|picture| Some(agreement(picture)) == most).collect();
         match best.as_slice() {
             [picture] => self.unless_same_stem(picture, of_name),
-            [] => Err(self.not_found(&name, &named, of_name)),
-            several => Err(format!(
-                "image '{}' may be any of: {}; name the session in its path, or give --session",
-                short(&name),
-                self.listed(several)
-            )),
+            [] => Err(self.not_found(&named, of_name)),
+            several => {
+                let several = self.listed(several);
+                Err(format!("it may be any of: {several}; name the session in its path, or give --session"))
+            }
         }
+    }
+
+    /// Pictures of this name but for the extension, which may be another, or missing.
+    fn of_name(&self, name: &str) -> &[Picture] {
+        let of_stem = self.by_stem.get(&stem_of(name)).or_else(|| self.by_stem.get(name));
+        of_stem.map(Vec::as_slice).unwrap_or_default()
+    }
+
+    /// The picture of a session that a file of marks belongs to.
+    ///
+    /// # Errors
+    /// None, or several: which.
+    pub fn of_marks(&self, session: usize, stem: &str) -> Result<&Picture, String> {
+        let of_stem = self.by_stem.get(stem).map(Vec::as_slice).unwrap_or_default();
+        let picture = of_stem.iter().find(|picture| picture.session == session);
+        picture.ok_or_else(|| "the card has no image of this name".to_owned()).and_then(|p| self.unless_same_stem(p, of_stem))
     }
 
     /// Marks are found by the name of the image without its extension, within a session.
@@ -101,7 +114,7 @@ impl<'a> Pictures<'a> {
         ))
     }
 
-    fn not_found(&self, name: &str, named: &[usize], of_name: &[Picture]) -> String {
+    fn not_found(&self, named: &[usize], of_name: &[Picture]) -> String {
         let broken = named.iter().find_map(|at| {
             let session = self.sessions.get(*at)?;
             session.prepared.as_ref().err().map(|fact| format!("session '{}' cannot be used: {fact}", session.dir.name))
@@ -109,18 +122,17 @@ impl<'a> Pictures<'a> {
         if let Some(broken) = broken {
             return broken;
         }
-        let name = short(name);
         if of_name.is_empty() {
             let (count, sessions) = (self.count, self.sessions.len());
             let first =
                 self.by_stem.values().flatten().min().map(|picture| format!(", the first is {}", self.place(picture)));
             return format!(
-                "no card has an image '{name}' ({count} images of {sessions} sessions{})",
+                "no card has an image of this name ({count} images of {sessions} sessions{})",
                 first.unwrap_or_default()
             );
         }
         let others = self.listed(&of_name.iter().collect::<Vec<_>>());
-        format!("the session that '{name}' names has no such image; others have: {others}")
+        format!("the session that its path names has no such image; others have: {others}")
     }
 
     fn listed(&self, pictures: &[&Picture]) -> String {
@@ -164,6 +176,7 @@ mod tests {
         for (name, expected) in [
             ("b.jpg", "S1/images/b.jpg"),
             ("b.png", "S1/images/b.jpg"),
+            ("S1/b", "S1/images/b.jpg"),
             ("S2/a.jpg", "S2/images/a.jpg"),
             (r"study\cards\S1\images\a.jpg", "S1/images/a.jpg"),
             ("./images/b.jpg", "S1/images/b.jpg"),
@@ -182,9 +195,9 @@ mod tests {
             ("images/a.jpg", "may be any of"),
             ("S1/S2/a.jpg", "may be any of"),
             ("S3/b.jpg", "session 'S3' cannot be used: broken"),
-            ("d.jpg", "no card has an image 'd.jpg' (5 images of 3 sessions, the first is S1/c.jpg)"),
+            ("d.jpg", "no card has an image of this name (5 images of 3 sessions, the first is S1/c.jpg)"),
             ("S1/c.jpg", "several images of one session"),
-            ("", "no card has an image ''"),
+            ("", "no card has an image"),
         ] {
             let fact = found(cards, name).unwrap_err();
             assert!(fact.contains(expected), "{name}: {fact}");

@@ -11,7 +11,7 @@ use model::{Mark, ObjectMarks};
 use super::ExchangeError;
 use super::foreign::Refused;
 use super::label::What;
-use super::pictures::{MarkedSession, Pictures};
+use super::pictures::Pictures;
 use crate::labelme;
 use crate::session::stem_of;
 use crate::study::{Study, marks_in};
@@ -78,9 +78,9 @@ impl Labelled {
 pub fn export(study: &Study, options: &ExportOptions) -> Result<Exported, ExchangeError> {
     let pictures = Pictures::list(study, None, &options.program);
     let (mut exported, mut images) = (Exported::default(), Vec::new());
-    for session in &pictures.sessions {
+    for (number, session) in pictures.sessions.iter().enumerate() {
         if let Some(folder) = session.dir.marks.get(&options.rater) {
-            images.extend(images_of(study, &pictures, session, folder, &mut exported));
+            images.extend(images_of(study, &pictures, number, folder, &mut exported));
         }
     }
     if images.is_empty() && exported.refused.is_empty() {
@@ -102,7 +102,7 @@ pub fn export(study: &Study, options: &ExportOptions) -> Result<Exported, Exchan
 fn images_of(
     study: &Study,
     pictures: &Pictures<'_>,
-    session: &MarkedSession<'_>,
+    session: usize,
     folder: &Path,
     exported: &mut Exported,
 ) -> Vec<MarkedImage> {
@@ -110,12 +110,13 @@ fn images_of(
         let place = path.strip_prefix(&study.dir).unwrap_or(path).display().to_string();
         exported.refused.push(Refused { place, fact });
     };
-    let prepared = match &session.prepared {
-        Ok(prepared) => prepared,
-        Err(fact) => {
+    let prepared = match pictures.sessions.get(session).map(|session| &session.prepared) {
+        Some(Ok(prepared)) => prepared,
+        Some(Err(fact)) => {
             refuse(folder, fact.clone());
             return Vec::new();
         }
+        None => return Vec::new(),
     };
     let files = match marks_in(folder) {
         Ok(files) => files,
@@ -127,7 +128,7 @@ fn images_of(
     let mut images = Vec::new();
     for path in files {
         let size_px = prepared.marks_camera.1.size_px();
-        let name = pictures.find(&format!("{}/{}", session.dir.name, stem_of(&path.to_string_lossy())));
+        let name = pictures.of_marks(session, &stem_of(&path.to_string_lossy()));
         let marks = labelme::read_bytes(&path).and_then(|bytes| labelme::parse(&bytes, &path, size_px));
         match (name, marks) {
             (Ok(picture), Ok(marks)) => {
