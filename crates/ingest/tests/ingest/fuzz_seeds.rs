@@ -200,7 +200,9 @@ fn exchange() -> Seeds {
                     <points label=\"height_rim\" points=\"3,4\"/></skeleton>";
     let shapes = "<ellipse label=\"rim\" cx=\"30\" cy=\"20\" rx=\"9\" ry=\"4\" rotation=\"7\">\
                   <attribute name=\"object\">pl&#97;te</attribute></ellipse>";
-    let xml = format!("<annotations><image name=\"S/a.jpg\" width=\"64\" height=\"48\">{shapes}{skeleton}</image></annotations>");
+    let xml = format!(
+        "<annotations><image name=\"S/a.jpg\" width=\"64\" height=\"48\">{shapes}{skeleton}</image></annotations>"
+    );
     let coco = |annotations: &str| {
         format!(
             "{{\"images\": [{{\"id\": 1, \"file_name\": \"a.jpg\", \"width\": 64, \"height\": 48}}], \"categories\": \
@@ -209,7 +211,8 @@ fn exchange() -> Seeds {
         )
     };
     let polygon = "{\"id\": 1, \"image_id\": 1, \"category_id\": 1, \"segmentation\": [[1, 2, 3, 4, 5, 6.5]], \"bbox\": [1, 2, 4, 4.5]}";
-    let keypoints = "{\"id\": 2, \"image_id\": 1, \"category_id\": 2, \"keypoints\": [1, 2, 2, 30, 4e0, 1], \"segmentation\": []}";
+    let keypoints =
+        "{\"id\": 2, \"image_id\": 1, \"category_id\": 2, \"keypoints\": [1, 2, 2, 30, 4e0, 1], \"segmentation\": []}";
     let mask = "{\"id\": 3, \"image_id\": 1, \"category_id\": 1, \"segmentation\": {\"counts\": \"a\", \"size\": [48, 64]}, \"iscrowd\": 1}";
     vec![
         named("cvat-all.xml", repository_file("crates/pipeline/src/exchange/cvat/sample.xml")),

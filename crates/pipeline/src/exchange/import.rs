@@ -74,8 +74,12 @@ pub fn import(study: &Study, file: &Path, options: &ImportOptions) -> Result<Imp
         match import.pictures.find(&image.name) {
             Ok(picture) => match marked.insert(picture, &image.place) {
                 None => import.image(image, picture, &mut imported)?,
+                Some(_) if image.annotations.is_empty() => {}
                 Some(first) => {
-                    let fact = format!("the same picture as another image of the file ({first}): {}", import.pictures.place(picture));
+                    let fact = format!(
+                        "the same picture as another image of the file ({first}): {}",
+                        import.pictures.place(picture)
+                    );
                     imported.refused.push(at_image(image, fact));
                 }
             },
@@ -186,14 +190,17 @@ impl Import<'_> {
             imported.marks += placed.len();
             return Ok(());
         }
-        if placed.is_empty() || (there.is_some() && !self.options.force) {
-            let fact = if placed.is_empty() {
-                "holds marks, of which this file has none; delete it if they are no longer wanted"
-            } else {
-                "holds other marks, and is left as it is; --force writes over it"
-            };
-            let path = target.path.display();
-            imported.refused.push(Refused { place: format!("{}: {path}", image.place), fact: fact.to_owned() });
+        let there_is = |fact: &str| Refused {
+            place: format!("{}: {}", image.place, target.path.display()),
+            fact: fact.to_owned(),
+        };
+        if placed.is_empty() {
+            let fact = "holds marks, of which this file has none; delete it if they are no longer wanted";
+            imported.notes.push(there_is(fact));
+            return Ok(());
+        }
+        if there.is_some() && !self.options.force {
+            imported.refused.push(there_is("holds other marks, and is left as it is; --force writes over it"));
             return Ok(());
         }
         if !self.options.dry_run {

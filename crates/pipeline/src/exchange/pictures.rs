@@ -39,11 +39,11 @@ impl<'a> Pictures<'a> {
         let sessions =
             study.sessions.iter().filter(|dir| dir.card.is_some() && only.is_none_or(|only| dir.name == only));
         for dir in sessions {
-            let prepared = Prepared::new(study, dir, program).map_err(|problem| problem.fact);
-            let card = dir.card.as_ref().filter(|_| prepared.is_ok()).and_then(|card| Card::list(card).ok());
-            if let (Some(card), Some(patterns)) = (card, &patterns) {
-                for file in card.fitting(patterns) {
-                    pictures.add(file.name);
+            let mut prepared = Prepared::new(study, dir, program).map_err(|problem| problem.fact);
+            if let (Ok(_), Some(card), Some(patterns)) = (&prepared, &dir.card, &patterns) {
+                match Card::list(card) {
+                    Ok(card) => card.fitting(patterns).into_iter().for_each(|file| pictures.add(file.name)),
+                    Err(error) => prepared = Err(format!("its card cannot be listed: {error}")),
                 }
             }
             pictures.sessions.push(MarkedSession { dir, prepared });
@@ -79,6 +79,9 @@ impl<'a> Pictures<'a> {
         match best.as_slice() {
             [picture] => self.unless_same_stem(picture, of_name),
             [] => Err(self.not_found(&named, of_name)),
+            [first, rest @ ..] if rest.iter().all(|other| other.session == first.session) => {
+                self.unless_same_stem(first, of_name)
+            }
             several => {
                 let several = self.listed(several);
                 Err(format!("it may be any of: {several}; name the session in its path, or give --session"))
@@ -99,7 +102,9 @@ impl<'a> Pictures<'a> {
     pub fn of_marks(&self, session: usize, stem: &str) -> Result<&Picture, String> {
         let of_stem = self.by_stem.get(stem).map(Vec::as_slice).unwrap_or_default();
         let picture = of_stem.iter().find(|picture| picture.session == session);
-        picture.ok_or_else(|| "the card has no image of this name".to_owned()).and_then(|p| self.unless_same_stem(p, of_stem))
+        picture
+            .ok_or_else(|| "the card has no image of this name".to_owned())
+            .and_then(|p| self.unless_same_stem(p, of_stem))
     }
 
     /// Marks are found by the name of the image without its extension, within a session.

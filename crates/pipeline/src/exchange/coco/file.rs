@@ -98,7 +98,8 @@ pub(super) enum Segmentation {
     #[default]
     None,
     Polygons(Vec<Vec<f64>>),
-    Rle(Rle),
+    /// RLE has a key `counts`.
+    Object(BTreeMap<String, IgnoredAny>),
     Other(IgnoredAny),
 }
 
@@ -106,13 +107,6 @@ impl Segmentation {
     pub fn is_empty(&self) -> bool {
         matches!(self, Self::None) || matches!(self, Self::Polygons(parts) if parts.is_empty())
     }
-}
-
-/// Told by its keys.
-#[derive(Deserialize)]
-pub(super) struct Rle {
-    #[serde(rename = "counts")]
-    _counts: IgnoredAny,
 }
 
 #[derive(Deserialize)]

@@ -90,10 +90,12 @@ fn drawing(annotation: &CocoAnnotation, category: &Category) -> Result<Drawn, St
         Segmentation::Polygons(_) | Segmentation::None => {
             Err("a box says nothing of a rim: mark it by a polygon or keypoints".to_owned())
         }
-        Segmentation::Rle(_) => {
+        Segmentation::Object(keys) if keys.contains_key("counts") => {
             Err("a mask (RLE) says which pixels, not where the rim is: mark it by a polygon or keypoints".to_owned())
         }
-        Segmentation::Other(_) => Err("segmentation: expected polygons, [[x1,y1,x2,y2,x3,y3,...]]".to_owned()),
+        Segmentation::Object(_) | Segmentation::Other(_) => {
+            Err("segmentation: expected polygons, [[x1,y1,x2,y2,x3,y3,...]]".to_owned())
+        }
     }
 }
 

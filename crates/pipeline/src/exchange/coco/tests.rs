@@ -34,10 +34,8 @@ fn polygons_in_one_part_and_in_several() {
 
 #[test]
 fn keypoints_with_their_visibility() {
-    let both = one(
-        r#""category_id": 2, "keypoints": [1, 2, 2, 3, 4, 1], "num_keypoints": 2, "iscrowd": 0,
-           "segmentation": [[1, 2, 3, 4, 5, 6]], "attributes": {"object": "x", "occluded": false}"#,
-    );
+    let both = one(r#""category_id": 2, "keypoints": [1, 2, 2, 3, 4, 1], "num_keypoints": 2, "iscrowd": 0,
+           "segmentation": [[1, 2, 3, 4, 5, 6]], "attributes": {"object": "x", "occluded": false}"#);
     assert_eq!(both.attributes.into_iter().collect::<Vec<_>>(), [("object".to_owned(), "x".to_owned())]);
     let Drawn::Named(points) = both.drawn else { panic!("keypoints") };
     assert_eq!(points.iter().map(|point| point.sight).collect::<Vec<_>>(), [Sight::Seen, Sight::Hidden]);

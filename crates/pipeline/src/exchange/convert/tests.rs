@@ -80,7 +80,8 @@ fn hidden_points_are_left_out_unless_asked_for() {
 
 #[test]
 fn an_ellipse_gives_no_more_points_than_it_holds() {
-    let ellipse = |x: f64| Drawn::Ellipse(Ellipse { centre_px: [x, 20.0], half_axes_px: [12.0, 6.0], rotation_rad: 0.3 });
+    let ellipse =
+        |x: f64| Drawn::Ellipse(Ellipse { centre_px: [x, 20.0], half_axes_px: [12.0, 6.0], rotation_rad: 0.3 });
     let converted = convert("bowl/rim", ellipse(30.0), false).unwrap();
     assert_eq!((converted.made[0].shape_type, converted.made[0].points_px.len()), ("points", 8));
     let over_the_border = convert("bowl/rim", ellipse(4.0), false).unwrap();
@@ -96,7 +97,11 @@ fn what_is_unclear_is_refused() {
         ("bowl", drawn(Form::Polygon, &[[1.0, 1.0]; 3]), "names 'bowl', but not what of it is marked"),
         ("bowl/width", drawn(Form::Polygon, &[[1.0, 1.0]; 4]), "got a polygon with 4"),
         ("bowl/width", drawn(Form::Polyline, &[[1.0, 1.0]; 3]), "got a polyline with 3"),
-        ("bowl/rim", drawn(Form::Polygon, &[[1.0, 1.0], [66.0, 1.0]]), "a point at 66, 1: expected points in the picture"),
+        (
+            "bowl/rim",
+            drawn(Form::Polygon, &[[1.0, 1.0], [66.0, 1.0]]),
+            "a point at 66, 1: expected points in the picture",
+        ),
         ("bowl/rim", drawn(Form::Polygon, &[[f64::NAN, 1.0]]), "a point at NaN"),
         ("bowl/rim", drawn(Form::Polygon, &[[1.0, -1e300]]), "expected points in the picture, of 64 x 48 px"),
         ("bowl", skeleton(&[("left", 1.0, Seen)]), "'left' of the skeleton is unclear; expected WHAT_1"),

@@ -11,7 +11,11 @@ type Attributes = BTreeMap<String, String>;
 /// A shape of an image, to its end.
 pub(super) fn annotation(reader: &mut Reader<'_>, start: &Start<'_>) -> Result<Annotation, ExchangeError> {
     let mut own = start.attributes(reader)?;
-    let drawn = drawing(start.name(), &own).unwrap_or_else(Drawn::Unusable);
+    let drawn = if is_set(&own, "outside") {
+        Drawn::Unusable("marked as outside: it is not in this picture".to_owned())
+    } else {
+        drawing(start.name(), &own).unwrap_or_else(Drawn::Unusable)
+    };
     let place = start.place();
     let mut annotation =
         Annotation { place, label: own.remove("label").unwrap_or_default(), attributes: Attributes::new(), drawn };
@@ -74,11 +78,14 @@ fn ellipse(own: &Attributes) -> Result<Ellipse, String> {
     Ok(Ellipse { centre_px, half_axes_px, rotation_rad: rotation_deg.to_radians() })
 }
 
+fn is_set(own: &Attributes, key: &str) -> bool {
+    own.get(key).is_some_and(|value| value != "0")
+}
+
 /// A point of a skeleton.
 fn element(name: &str, mut own: Attributes) -> Result<NamedPoint, String> {
     let label = own.remove("label").unwrap_or_default();
-    let is = |key: &str| own.get(key).is_some_and(|value| value != "0");
-    let sight = match (is("outside"), is("occluded")) {
+    let sight = match (is_set(&own, "outside"), is_set(&own, "occluded")) {
         (true, _) => Sight::Absent,
         (false, true) => Sight::Hidden,
         (false, false) => Sight::Seen,

@@ -55,12 +55,16 @@ fn an_ellipse_turns_clockwise() {
 fn what_is_wrong_with_a_shape_spoils_that_shape() {
     for (shape, expected) in [
         (r#"<polygon label="p/rim"/>"#, "expected points="),
+        (r#"<polygon label="p/rim" outside="1" points="1,2;3,4;5,6"/>"#, "marked as outside"),
         (r#"<polygon label="p/rim" points="1,2;3"/>"#, "got '3'"),
         (r#"<polygon label="p/rim" points="1,2;nan,4"/>"#, "finite number, got 'nan'"),
         (r#"<polygon label="p/rim" points="1,2;1e999,4"/>"#, "finite number, got '1e999'"),
         (r#"<ellipse label="p/rim" cx="1" cy="1" rx="-1" ry="2"/>"#, "not both positive"),
         (r#"<ellipse label="p/rim" cx="1" cy="1" rx="1"/>"#, "without ry"),
-        (r#"<skeleton label="p"><polygon label="rim_1" points="1,2;3,4"/></skeleton>"#, "expected 1 point, got a polygon with 2"),
+        (
+            r#"<skeleton label="p"><polygon label="rim_1" points="1,2;3,4"/></skeleton>"#,
+            "expected 1 point, got a polygon with 2",
+        ),
         (r#"<blob label="p/rim" points="1,2"/>"#, "<blob> is not known"),
     ] {
         let Drawn::Unusable(fact) = drawn(shape) else { panic!("{shape}") };
