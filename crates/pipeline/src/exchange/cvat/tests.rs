@@ -28,8 +28,9 @@ fn a_file_as_cvat_writes_it() {
     assert_eq!(attributes["object"], "bowl & \"co\"");
     let points_px = vec![[10.25, 20.5], [30.0, 40.75]];
     assert_eq!(drawn, &Drawn::Points { form: Form::Polyline, points_px });
-    let Drawn::Ellipse(Ellipse { half_axes_px, rotation_rad, .. }) = first.annotations[3].drawn else { panic!() };
-    assert!((rotation_rad.to_degrees() - 30.0).abs() < 1e-12 && half_axes_px == [10.0, 5.0]);
+    let rotation_rad = 30_f64.to_radians();
+    let ellipse = Ellipse { centre_px: [30.0, 20.0], half_axes_px: [10.0, 5.0], rotation_rad };
+    assert_eq!(first.annotations[3].drawn, Drawn::Ellipse(ellipse));
     let Drawn::Named(points) = &first.annotations[4].drawn else { panic!("a skeleton") };
     let sights: Vec<_> = points.iter().map(|point| (point.name.as_str(), point.sight)).collect();
     let expected = [("height_foot", Sight::Seen), ("height_rim", Sight::Hidden), ("rim_1", Sight::Absent)];
