@@ -77,7 +77,7 @@ impl Object {
     pub(super) fn row(&self) -> ObjectRow {
         let TrueSizes { true_diameter_mm, true_width_mm, true_length_mm, true_height_mm } = self.true_sizes();
         ObjectRow {
-            object: self.name,
+            object: self.name.to_owned(),
             kind: self.kind,
             shape: self.shape,
             true_diameter_mm,
