@@ -35,9 +35,13 @@ pub(super) fn plate(ware: &Ware, at_mm: Point2<f64>, turn_rad: f64, material: &M
     let sides = [(half.x, half.y), (half.y, half.x), (half.x, half.y), (half.y, half.x)];
     bodies.extend(sides.into_iter().zip(0_u8..).map(|((out, along), quarter)| {
         let turn_rad = turn_rad + f64::from(quarter) * std::f64::consts::FRAC_PI_2;
+        // Its own frame begins in its middle, so that the ball that stands for it in the room's light is not the whole plate's.
+        let middle = Vector3::new(out - 0.5 * flange, 0.0, 0.5 * (ring + ware.height_mm));
         let sides = flange_sides([out - flange, out], along, [ring, ware.height_mm - t], t);
-        let center = Point3::new(at_mm.x, at_mm.y, 0.0);
-        let reach_mm = out.hypot(along).hypot(ware.height_mm);
+        let sides = sides.map(|(normal, offset)| (normal, offset - normal.dot(&middle)));
+        let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), turn_rad);
+        let center = Point3::new(at_mm.x, at_mm.y, 0.0) + turn * middle;
+        let reach_mm = along.hypot(0.5 * flange).hypot(0.5 * (ware.height_mm - ring));
         Body { form: Form::Convex(Convex { center, turn_rad, sides, reach_mm }), material: material.clone() }
     }));
     bodies

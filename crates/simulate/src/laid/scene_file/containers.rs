@@ -106,6 +106,16 @@ fn check(name: &Name, key: &str, got: f64, [low, high]: [f64; 2]) -> Result<f64,
     Err(format!("'{}': {key} = {got}, expected {low:.1} to {high:.1}, which its other sizes leave", name.0))
 }
 
+/// What is printed is printed about an axis.
+fn check_glaze(name: &Name, glaze: Option<&Surface>) -> Result<(), String> {
+    match glaze {
+        Some(surface) if surface.is_printed() => {
+            Err(format!("'{}': glaze printed, expected on round containers only", name.0))
+        }
+        _ => Ok(()),
+    }
+}
+
 impl TryFrom<PlateFields> for Container {
     type Error = String;
 
@@ -121,6 +131,9 @@ impl TryFrom<PlateFields> for Container {
             }
         };
         check(&name, "width_mm", short, [20.0, long])?;
+        if shape != Shape::Circle {
+            check_glaze(&name, plate.glaze.as_ref().map(|glaze| &glaze.0))?;
+        }
         let ring = or(plate.foot_ring_mm, FOOT_RING_MM);
         let thick = or(plate.thickness_mm, f64::min(5.0, 0.05 * short));
         check(&name, "thickness_mm", thick, [1.0, 0.05 * short])?;
@@ -185,6 +198,7 @@ impl TryFrom<BoxFields> for Container {
     fn try_from(fields: BoxFields) -> Result<Self, String> {
         let (name, long, short) = (fields.name, fields.length_mm.get(), fields.width_mm.get());
         check(&name, "width_mm", short, [20.0, long])?;
+        check_glaze(&name, fields.glaze.as_ref().map(|glaze| &glaze.0))?;
         let thick = check(&name, "thickness_mm", or(fields.thickness_mm, 3.0), [1.0, 0.2 * short])?;
         let height = check(&name, "height_mm", fields.height_mm.get(), [2.0 * thick, 500.0])?;
         let ware = Ware {

@@ -134,40 +134,45 @@ impl SceneSpec {
         self.containers().enumerate().filter(|(_, each)| is_served(each)).collect()
     }
 
-    /// What goes together: names, and things that stand beside one another.
+    /// Whether all of it goes together.
     fn check(&self) -> Result<(), SimulateError> {
-        let refuse = |fact: String| Err(SimulateError::Scene { fact });
         if self.schema_version != SCENE_SCHEMA_VERSION {
             let got = self.schema_version;
-            return refuse(format!("schema_version = {got}: this program reads version {SCENE_SCHEMA_VERSION}"));
+            let fact = format!("schema_version = {got}: this program reads version {SCENE_SCHEMA_VERSION}");
+            return Err(SimulateError::Scene { fact });
         }
-        let names: Vec<&str> = self.containers().map(|each| each.name.as_str()).collect();
-        if let Some(name) = twice(&names) {
-            return refuse(format!("two containers are called '{name}', expected names of their own"));
-        }
+        let fault = self.fault_of_names();
+        let fault = fault.or_else(|| self.sessions.iter().find_map(|session| self.fault_of(&session.0)));
+        fault.map_or(Ok(()), |fact| Err(SimulateError::Scene { fact }))
+    }
+
+    fn fault_of_names(&self) -> Option<String> {
+        let containers: Vec<&str> = self.containers().map(|each| each.name.as_str()).collect();
         let sessions: Vec<&str> = self.sessions.iter().map(|session| session.0.name.as_str()).collect();
         if sessions.is_empty() {
-            return refuse("no [[sessions]], expected at least one".to_owned());
+            return Some("no [[sessions]], expected at least one".to_owned());
         }
-        if let Some(name) = twice(&sessions) {
-            return refuse(format!("two sessions are called '{name}', expected names of their own"));
+        let both = [("containers", containers), ("sessions", sessions)];
+        both.iter().find_map(|(what, names)| {
+            let name = twice(names)?;
+            Some(format!("two {what} are called '{name}', expected names of their own"))
+        })
+    }
+
+    /// What a session asks for and cannot have.
+    fn fault_of(&self, session: &Session) -> Option<String> {
+        let name = &session.name;
+        let names: Vec<&str> = self.containers().map(|each| each.name.as_str()).collect();
+        if let Some(unknown) = session.objects.iter().flatten().find(|name| !names.contains(&name.as_str())) {
+            let known = names.join(", ");
+            return Some(format!("session '{name}': no container is called '{unknown}'; there are: {known}"));
         }
-        for session in self.sessions.iter().map(|session| &session.0) {
-            let unknown = session.objects.iter().flatten().find(|name| !names.contains(&name.as_str()));
-            if let Some(unknown) = unknown {
-                let (name, known) = (&session.name, names.join(", "));
-                return refuse(format!("session '{name}': no container is called '{unknown}'; there are: {known}"));
-            }
-            let served = self.served(session);
-            if let Some([a, b]) = standing_in_one_another(&served).filter(|_| !session.one_at_a_time) {
-                let name = &session.name;
-                return refuse(format!(
-                    "session '{name}': '{a}' and '{b}' stand in one another, expected places (at_mm) further apart, or \
-                     one_at_a_time = true"
-                ));
-            }
-        }
-        Ok(())
+        let served = self.served(session);
+        let [a, b] = standing_in_one_another(&served).filter(|_| !session.one_at_a_time)?;
+        Some(format!(
+            "session '{name}': '{a}' and '{b}' stand in one another, expected places (at_mm) further apart, or \
+             one_at_a_time = true"
+        ))
     }
 }
 

@@ -151,6 +151,12 @@ impl TryFrom<HeadFields> for Head {
 
     fn try_from(head: HeadFields) -> Result<Self, String> {
         let pitch_deg = range("pitch_deg", head.pitch_deg, (20.0, 80.0))?;
+        let sway_deg = or(head.sway_deg, 0.25);
+        if pitch_deg.0 - sway_deg < 1.0 || pitch_deg.1 + sway_deg > 89.0 {
+            return Err(format!(
+                "pitch_deg = {pitch_deg:?} with a sway_deg of {sway_deg}, expected 1 to 89 degrees in all"
+            ));
+        }
         let height_mm = range("height_mm", head.height_mm, (330.0, 520.0))?;
         let roll_deg = range("roll_deg", head.roll_deg, (-8.0, 8.0))?;
         let rest_pitch_deg = or(head.rest_pitch_deg, f64::clamp(54.0, pitch_deg.0, pitch_deg.1));
@@ -171,7 +177,7 @@ impl TryFrom<HeadFields> for Head {
         Ok(Self {
             walk,
             images: head.images.map_or(IMAGES, Count::get),
-            sway_deg: or(head.sway_deg, 0.25),
+            sway_deg,
             shift_mm: or(head.shift_mm, 40.0),
             yaw_rad: or(head.yaw_deg, 14.0).to_radians(),
         })

@@ -112,6 +112,11 @@ impl Surface {
         }
     }
 
+    /// Whether it is drawn about an axis, which only round things have.
+    pub(super) fn is_printed(&self) -> bool {
+        matches!(self.0, TextureFields::Printed(_))
+    }
+
     /// Share of the light that it mirrors unless the file says so: none for cloth.
     fn gloss_pct(&self) -> f64 {
         if matches!(self.0, TextureFields::Cloth(_)) { 0.0 } else { GLAZE_PCT }
