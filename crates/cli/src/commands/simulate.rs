@@ -117,7 +117,7 @@ fn make_scene(file: &Path, args: &SimulateArgs, bars: &Bars) -> Result<(Simulate
     match scene.write(&args.out, &camera, seed, text.as_bytes(), &bars.counter("pictures")) {
         Ok(made) => Ok((made, seed)),
         Err(error @ (SimulateError::Scene { .. } | SimulateError::SceneCamera(_))) => {
-            Err(Failure::Usage(anyhow::Error::new(error).context(file.display().to_string())))
+            Err(Failure::Usage(anyhow!("{}: {error}", file.display())))
         }
         Err(other) => Err(other.into()),
     }

@@ -40,6 +40,8 @@ use things::{CutlerySpec, GlassSpec, HandFields, HandSpec, NapkinSpec, Telephone
 
 /// Version of the scene file that this program reads.
 const SCENE_SCHEMA_VERSION: u32 = 1;
+/// A session's sensor packets are made as a whole.
+const LONGEST_S: f64 = 86_400.0;
 const CAMERA: &str = "scene-camera";
 
 /// A scene file. Unknown keys are refused, and so are values out of range.
@@ -168,6 +170,13 @@ impl SceneSpec {
             return Some(format!("session '{name}': no container is called '{unknown}'; there are: {known}"));
         }
         let served = self.served(session);
+        let (images, period_s) = (session.images(served.len()), session.period_s);
+        #[expect(clippy::cast_precision_loss, reason = "some thousand images")]
+        if images as f64 * period_s > LONGEST_S {
+            return Some(format!(
+                "session '{name}': {images} images, {period_s} s apart, expected at most a day of them"
+            ));
+        }
         let [a, b] = standing_in_one_another(&served).filter(|_| !session.one_at_a_time)?;
         Some(format!(
             "session '{name}': '{a}' and '{b}' stand in one another, expected places (at_mm) further apart, or \

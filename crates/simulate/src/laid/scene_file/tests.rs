@@ -119,6 +119,10 @@ fn what_does_not_go_together_is_refused_before_anything_is_written() {
         (format!("{SESSION}{SESSION}"), "two sessions are called 'a'"),
         (format!("{both}{SESSION}objects = [\"p\", \"r\"]\n"), "no container is called 'r'; there are: p, q"),
         ("sessions = []\n".to_owned(), "no [[sessions]]"),
+        (
+            SESSION.replace("440 }", "440, images = 200 }\nperiod_s = 600"),
+            "session 'a': 200 images, 600 s apart, expected at most a day of them",
+        ),
     ] {
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("study");
