@@ -99,6 +99,16 @@ fn what_is_wrong_is_told_with_file_and_line() {
         &shipped.replace("one_at_a_time = true", ""),
         "mine.toml: session 'bench': 'square plate' and 'rice bowl' stand in one",
     );
+    let line = at("  { pitch_deg = 48");
+    refused(
+        &shipped.replace("pitch_deg = 48", "pitch_deg = 95"),
+        &format!("mine.toml:{line}:17: sessions.pitch_deg: got 95, expected 5 to 90"),
+    );
+    let line = at("[[bowls]]");
+    refused(
+        &shipped.replace("height_mm = 62", "height_mm = 6"),
+        &format!("mine.toml:{line}:1: bowls: 'rice bowl': height_mm = 6, expected 11.0 to 500.0"),
+    );
     refused("", "missing field");
     let output = simulate(&kitchen(), &out, &["--image-size", "64x64"]);
     assert_exit(&output, 2);

@@ -1,10 +1,11 @@
 //! Values that are checked where they stand, so that an error tells the line.
 
-use std::fmt::Display;
+use std::fmt::{Display, Formatter};
 use std::marker::PhantomData;
 
 use nalgebra::{Point2, Point3};
-use serde::de::Error as _;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use crate::world::Rgb;
@@ -110,7 +111,26 @@ where
     T::Error: Display,
 {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let checked = T::try_from(F::deserialize(deserializer)?).map_err(D::Error::custom)?;
-        Ok(Self(checked, PhantomData))
+        deserializer.deserialize_any(CheckedVisitor(PhantomData))
+    }
+}
+
+/// Checks while the table is visited: of an error that arises later, a file's reader would know no better place than the whole
+/// list of tables.
+struct CheckedVisitor<F, T>(PhantomData<(F, T)>);
+
+impl<'de, F: Deserialize<'de>, T: TryFrom<F>> Visitor<'de> for CheckedVisitor<F, T>
+where
+    T::Error: Display,
+{
+    type Value = Checked<F, T>;
+
+    fn expecting(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        f.write_str("a table of keys")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+        let fields = F::deserialize(MapAccessDeserializer::new(map))?;
+        Ok(Checked(T::try_from(fields).map_err(A::Error::custom)?, PhantomData))
     }
 }

@@ -48,9 +48,14 @@ fn wrong_keys_and_values_are_told_on_their_lines() {
         ("[table]\ntexture = { wool = {} }\n", 5, "unknown variant `wool`"),
         ("[table]\ntexture = { cloth = { colour = [1, 1, 1] } }\n", 5, "unknown field `colour`"),
         ("[picture]\nblur_px = nan\n", 5, "got NaN, expected 0 to 50"),
+        (
+            "[[sessions]]\nname = \"a\"\nposes = [\n  { pitch_deg = 50, height_mm = 400 },\n  { pitch = 50 },\n]\n",
+            8,
+            "unknown field `pitch`",
+        ),
+        ("[[glasses]]\nat_mm = [0, 1]\n[[glasses]]\nat_mm = [0, 1]\nfull_pct = 101\n", 8, "got 101, expected 0 to 100"),
         ("jpeg_quality = 101\n", 4, "got 101, expected 1 to 100"),
         ("seed = -1\n", 4, "expected u64"),
-        ("[camera2]\n", 4, "unknown field"),
     ] {
         let (got_line, message) = refused(&format!("{HEAD}{part}"));
         assert!(got_line == line && message.contains(expected), "{part}: line {got_line}: {message}");
@@ -81,6 +86,11 @@ fn what_contradicts_itself_is_told_on_the_line_of_its_table() {
              glaze = { printed = { colours = [[1, 1, 1], [0, 0, 0]] } }\n",
             4,
             "'b': glaze printed, expected on round containers only",
+        ),
+        (
+            "[[plates]]\nname = \"p\"\ndiameter_mm = 200\n\n[[plates]]\nname = \"q\"\ndiameter_mm = 200\nheight_mm = 4\n",
+            8,
+            "'q': height_mm = 4, expected 9.0 to 100.0",
         ),
         ("[[hands]]\ntip_mm = [0, 300, 50]\nelbow_mm = [0, 310, 50]\n", 4, "at least 100 mm apart"),
         ("[light]\nlamp_mm = [0, 0, 50]\n", 4, "lamp_mm is 50 mm above the table, expected at least 100"),
@@ -324,4 +334,12 @@ fn what_is_accepted_can_be_made() {
         }
     }
     assert!(accepted > 60, "{accepted}");
+}
+
+#[test]
+fn a_camera_s_keys_are_told_on_their_lines_too() {
+    let text =
+        "schema_version = 1\nname = \"s\"\nsessions = []\n[camera]\nschema_version = 1\nname = \"c\"\nwidth = 96\n";
+    let (line, message) = refused(text);
+    assert!(line == 7 && message.contains("unknown field `width`"), "line {line}: {message}");
 }
