@@ -20,4 +20,5 @@ mod methods;
 mod project;
 mod published_bench;
 mod real;
+mod scene;
 mod support;

@@ -3,6 +3,7 @@
 //! - [`ParquetSink`] takes the rows of a run and writes `results.parquet` and `frames.parquet`.
 //! - [`Results`] reads `results.parquet` back, with the metadata of its run; [`read_frames`] reads `frames.parquet`;
 //!   [`frames_file`] says where it is, and [`Results::read_flow`] counts its images.
+//! - [`write_truth`] and [`read_truth`]: `truth.parquet`, which lies beside a simulated study.
 //! - [`tables`] makes the tables that the study asks for; [`sizes`], [`error_by_pitch`] and [`error_by_height`] three more;
 //!   [`accuracy`], [`rater_agreement`] and [`methods`] hold sizes, raters and methods against the truth and each other;
 //!   [`flow`] and [`left_out`] tell what became of the images.
@@ -24,7 +25,9 @@ mod write_dir;
 pub use atomic::{FileError, write as write_file};
 pub use compare::{CompareError, Comparison, Difference, compare};
 pub use figure::Figure;
-pub use parquet::{ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, run_file};
+pub use parquet::{
+    ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, read_truth, run_file, write_truth,
+};
 pub use render::{csv, latex, markdown, terminal, terminal_set};
 pub use table::{Align, Cell, Column, Footnote, Format, Role, RowKind, Table, TableRow};
 pub use tables::{

@@ -57,7 +57,10 @@ fn key_at(text: &str, line: usize) -> Option<String> {
     let above = || text.lines().take(line);
     let header = |l: &&str| l.trim_start().starts_with('[') && !l.contains('=');
     let table = above().filter(header).last().map(|l| l.trim().trim_matches(['[', ']']).trim().to_owned());
-    let key = above().last().and_then(|l| l.split_once('=')).map(|(key, _)| key.trim().to_owned());
+    // A line may begin with the braces of a table in a list.
+    let key =
+        above().last().and_then(|l| l.split_once('=')).map(|(key, _)| key.trim_start_matches([' ', '\t', '[', '{']));
+    let key = key.map(|key| key.trim_end().to_owned());
     match (table, key) {
         (Some(table), Some(key)) => Some(format!("{table}.{key}")),
         (table, key) => key.or(table),

@@ -13,4 +13,5 @@ mod misuse;
 mod parquet;
 mod sizes;
 mod statistics;
+mod truth;
 mod validation;
