@@ -7,6 +7,7 @@
 //! - [`tables`] makes the tables that the study asks for; [`sizes`], [`error_by_pitch`] and [`error_by_height`] three more;
 //!   [`accuracy`], [`rater_agreement`] and [`methods`] hold sizes, raters and methods against the truth and each other;
 //!   [`flow`] and [`left_out`] tell what became of the images.
+//! - [`figures()`] draws the figures of a run as SVG, [`write_figures`] writes them; [`flow_bars`] is one of them for a terminal.
 //! - [`terminal`], [`csv()`], [`markdown`] and [`latex`] draw one [`Table`]; [`write_dir`] writes them all.
 //! - [`compare`] holds the tables against a folder of expected ones: a gate for automatic runs.
 //!
@@ -16,6 +17,7 @@
 mod atomic;
 mod compare;
 mod figure;
+mod figures;
 mod parquet;
 mod render;
 mod table;
@@ -25,6 +27,7 @@ mod write_dir;
 pub use atomic::{FileError, write as write_file};
 pub use compare::{CompareError, Comparison, Difference, compare};
 pub use figure::Figure;
+pub use figures::{FigureLeftOut, Figures, figures, flow_bars, write_figures};
 pub use parquet::{
     ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, read_truth, run_file, write_truth,
 };

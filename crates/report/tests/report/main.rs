@@ -5,7 +5,10 @@ extern crate aim_batch_report as report;
 
 mod bench;
 mod compare;
+mod documents;
+mod drawn;
 mod escaping;
+mod figures;
 mod files;
 mod flow;
 mod golden;
