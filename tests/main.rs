@@ -10,6 +10,7 @@ mod check;
 mod damage;
 mod documents;
 mod faults;
+mod figures;
 mod flow;
 mod inspect;
 mod large;
