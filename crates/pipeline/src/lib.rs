@@ -14,6 +14,7 @@
 mod annotate;
 pub mod calibrate;
 mod check;
+pub mod exchange;
 #[cfg(debug_assertions)]
 mod fault;
 mod gallery;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::arcs::Arc;
 use super::buckets::Buckets;
-use super::raster::Raster;
+use super::raster::{Raster, Window};
 
 /// Height of a rim above the table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -51,7 +51,7 @@ const STEP_PX: f64 = 3.0;
 /// Scaled pixels from the rim within which edges are the rim's.
 const CLEAR_PX: f64 = 3.0;
 /// A foot shows an edge at this share of its places, a wall (seldom straight) at this share of its.
-const SHOWS: (f64, f64) = (0.85, 0.4);
+const SHOWS: [f64; 2] = [0.85, 0.4];
 /// Walls bulge, feet have rounded edges and shadows: relative standard deviation of a height from that.
 const MODEL: f64 = 0.08;
 /// Least chance of an edge that means nothing.
@@ -88,7 +88,12 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_height_mm: f64) -> Vec<Trial> {
     let scale = std::f64::consts::TAU * rim.disc.radius / rim.perimeter_px;
     // The lowest foot that is tried, and what is around it.
     let lowest = away * (1.0 - shrink(rim, camera_height_mm, TRIED.1)) + rim.disc.radius;
-    let raster = Raster::of(buckets, [rim.disc.x, rim.disc.y], lowest.min(FURTHEST * rim.disc.radius), scale);
+    let reach = lowest.min(FURTHEST * rim.disc.radius);
+    let toward = [-rim.disc.x / away.max(1e-9), -rim.disc.y / away.max(1e-9)];
+    let furthest = away * (1.0 - shrink(rim, camera_height_mm, TRIED.1));
+    let window = around(rim, toward, furthest);
+    let raster = Raster::of(buckets, [rim.disc.x, rim.disc.y], reach, window, scale);
+    let odds = SHOWS.map(|shows| [((1.0 - shows) / (1.0 - chance)).ln(), (shows / chance).ln()]);
     let mut trials = Vec::new();
     let mut ratio = TRIED.0;
     while ratio < TRIED.1 {
@@ -99,12 +104,12 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_height_mm: f64) -> Vec<Trial> {
         while foot < FOOT.1 {
             let outline = Outline {
                 rim,
-                toward: [-rim.disc.x / away.max(1e-9), -rim.disc.y / away.max(1e-9)],
+                toward,
                 apart: away * (1.0 - shrink),
                 radius: foot * rim.disc.radius * shrink,
                 step: STEP_PX * scale,
             };
-            let seen = INDEPENDENT * outline.seen(&raster, chance);
+            let seen = INDEPENDENT * outline.seen(&raster, odds);
             let likely_foot = -0.5 * ((foot - COMMON_FOOT.0) / COMMON_FOOT.1).powi(2);
             trials.push(Trial { height_mm, log_odds: seen + likely_height + likely_foot, seen });
             foot += FOOT.2;
@@ -112,6 +117,16 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_height_mm: f64) -> Vec<Trial> {
         ratio *= HEIGHT_STEP;
     }
     trials
+}
+
+/// What the places lie in that are looked at for any height: discs no wider than the widest foot, from the rim's centre
+/// towards the furthest one.
+fn around(rim: &Arc, toward: [f64; 2], furthest: f64) -> Window {
+    let (from, widest) = ([rim.disc.x, rim.disc.y], FOOT.1 * rim.disc.radius);
+    let corner = |pick: fn(f64, f64) -> f64, side: f64| {
+        [0, 1].map(|axis| pick(from[axis], from[axis] + toward[axis] * furthest) + side * widest)
+    };
+    [corner(f64::min, -1.0), corner(f64::max, 1.0)]
 }
 
 /// How much smaller the rim is than it appears on Z = 0 if its height is so much of its diameter: H = q D and
@@ -134,8 +149,9 @@ struct Outline<'a> {
 }
 
 impl Outline<'_> {
-    /// What its edges say: logarithm of how much likelier they are with this foot than without.
-    fn seen(&self, raster: &Raster, chance: f64) -> f64 {
+    /// What its edges say: logarithm of how much likelier they are with this foot than without. `odds`: what a place of the
+    /// foot and one of the wall say, each without an edge and with one.
+    fn seen(&self, raster: &Raster, odds: [[f64; 2]; 2]) -> f64 {
         let cosine = (self.rim.disc.radius - self.radius) / self.apart;
         if cosine >= 1.0 {
             return 0.0; // hidden behind the rim
@@ -145,23 +161,23 @@ impl Outline<'_> {
         let heading = self.toward[1].atan2(self.toward[0]);
         let center = [self.rim.disc.x + self.toward[0] * self.apart, self.rim.disc.y + self.toward[1] * self.apart];
         let mut sum = 0.0;
-        let says =
-            |held: bool, shows: f64| if held { (shows / chance).ln() } else { ((1.0 - shows) / (1.0 - chance)).ln() };
         let rim = &self.rim.disc;
         // On the rim itself, edges are the rim's.
-        let clear = |at: [f64; 2]| (at[0] - rim.x).hypot(at[1] - rim.y) - rim.radius > CLEAR_PX * self.step / STEP_PX;
-        let mut look = |at: [f64; 2], angle: f64, shows: f64| {
-            if clear(at) {
-                sum += says(raster.has_edge(at, angle), shows);
+        let clear = (rim.radius + CLEAR_PX * self.step / STEP_PX).powi(2);
+        let mut look = |at: [f64; 2], angle: f64, odds: [f64; 2]| {
+            if (at[0] - rim.x).powi(2) + (at[1] - rim.y).powi(2) > clear {
+                sum += odds[usize::from(raster.has_edge(at, angle))];
             }
         };
         let turn = (self.step / self.radius).min(0.5);
         #[expect(clippy::cast_possible_truncation, reason = "places along half a foot")]
         let places = (exposed / turn) as i32;
+        let (sin, cos) = turn.sin_cos();
+        let (mut y, mut x) = (heading - f64::from(places) * turn).sin_cos();
         for place in -places..=places {
             let angle = heading + f64::from(place) * turn;
-            let normal = [angle.cos(), angle.sin()];
-            look([center[0] + self.radius * normal[0], center[1] + self.radius * normal[1]], angle, SHOWS.0);
+            look([center[0] + self.radius * x, center[1] + self.radius * y], angle, odds[0]);
+            (x, y) = (x * cos - y * sin, x * sin + y * cos);
         }
         let length = (self.apart.powi(2) - (rim.radius - self.radius).powi(2)).sqrt();
         for side in [-1.0, 1.0] {
@@ -175,7 +191,7 @@ impl Outline<'_> {
                     let foot = center[i] + self.radius * normal[i];
                     foot + (rim - foot) * share
                 });
-                look(at, angle, SHOWS.1);
+                look(at, angle, odds[1]);
                 along += self.step;
             }
         }

@@ -37,8 +37,9 @@ pub(super) fn draw(drawing: &mut Drawing, samples: &[Sample], paints: [Paint; 3]
     };
     // Others first: the selected lie above them.
     for (index, class) in [(1, "extremes"), (0, "extremes selected"), (2, "without")] {
-        let paint = Paint { stroke_width: 1.4, ..Paint::line(paints[index].stroke, 1.4) };
-        let paint = paint.faint(paints[index].stroke_opacity);
+        let paint = Paint::line(paints[index].stroke, 1.4);
+        // The selected stand out without colour, too.
+        let paint = if index == 1 { paint.faint(0.4) } else { paint };
         drawing.path(class, paint, bins[index].iter().map(line).collect());
     }
 }

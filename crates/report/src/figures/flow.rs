@@ -24,12 +24,14 @@ const TOP: f64 = 34.0;
 const ROW: f64 = 30.0;
 const BAR: f64 = 17.0;
 const LINE: f64 = 14.0;
+/// Letters that fit below a bar.
+const LETTERS: usize = 98;
 
 /// A bar: a step of the flow, and the reasons that keep images of the step before from it.
-struct Step {
-    heading: &'static str,
-    images: usize,
-    before: usize,
+pub(super) struct Step {
+    pub(super) heading: &'static str,
+    pub(super) images: usize,
+    pub(super) before: usize,
     reasons: Vec<String>,
 }
 
@@ -43,7 +45,7 @@ pub(super) fn made(frames: &[FrameRow]) -> Made {
     let (flow, sessions) = (study.total(), study.sessions().count());
     let steps = steps(&flow);
     #[expect(clippy::cast_precision_loss, reason = "a handful of lines")]
-    let extra = |step: &Step| LINE * lines(step).len() as f64;
+    let extra = |step: &Step| LINE * lines(step, LETTERS).len() as f64;
     let height = TOP + steps.iter().map(|step| ROW + extra(step)).sum::<f64>() + 8.0;
     let mut drawing = Drawing::new(PAGE, height);
     let entries = [
@@ -59,7 +61,7 @@ pub(super) fn made(frames: &[FrameRow]) -> Made {
     Made::drawn(NAME, TITLE, [caption(frames.len(), sessions), alt(&steps)], drawing)
 }
 
-fn steps(flow: &Flow) -> Vec<Step> {
+pub(super) fn steps(flow: &Flow) -> Vec<Step> {
     let mut before = flow.images_at(FlowStep::Found);
     let mut steps = Vec::new();
     for step in FlowStep::ALL.iter().copied() {
@@ -86,11 +88,11 @@ fn steps(flow: &Flow) -> Vec<Step> {
     steps
 }
 
-/// The reasons of a step, on lines that fit.
-fn lines(step: &Step) -> Vec<String> {
+/// The reasons of a step, on lines of no more than about `most` letters.
+pub(super) fn lines(step: &Step, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for reason in &step.reasons {
-        match lines.last_mut().filter(|line| line.len() + reason.len() < 84) {
+        match lines.last_mut().filter(|line| line.len() + reason.len() + 14 < most) {
             Some(line) => *line = format!("{line}, {reason}"),
             None => lines.push(reason.clone()),
         }
@@ -117,7 +119,7 @@ fn draw_step(drawing: &mut Drawing, step: &Step, found: usize, top: f64) {
     drawing.text(Text::new(LEFT - 8.0, top + 13.0, Anchor::End, step.heading));
     let words = format!("{} ({})", step.images, percent(step.images, found));
     drawing.text(Text::new(scale.at(step.before as f64) + 6.0, top + 13.0, Anchor::Start, words).small());
-    for (index, line) in lines(step).iter().enumerate() {
+    for (index, line) in lines(step, LETTERS).iter().enumerate() {
         let y = top + BAR + 12.0 + LINE * index as f64;
         drawing.text(Text::new(LEFT, y, Anchor::Start, clean(line)).small());
     }
@@ -125,7 +127,7 @@ fn draw_step(drawing: &mut Drawing, step: &Step, found: usize, top: f64) {
 
 /// A share of images in words: `< 1 %` is not 0.
 #[expect(clippy::cast_precision_loss, reason = "a count of images is far below 2^53")]
-fn percent(images: usize, of: usize) -> String {
+pub(super) fn percent(images: usize, of: usize) -> String {
     let share = 100.0 * images as f64 / of as f64;
     match share {
         _ if images == 0 => "0 %".to_owned(),

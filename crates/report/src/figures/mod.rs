@@ -12,6 +12,7 @@ mod coverage;
 mod drawing;
 mod envelope;
 mod flow;
+mod flow_text;
 mod grid;
 mod legend;
 mod marks;
@@ -31,6 +32,7 @@ use crate::figure::Figure;
 use crate::parquet::Results;
 use drawing::Drawing;
 
+pub use flow_text::flow_bars;
 pub use write::write_figures;
 
 /// Why figures of errors are not there.

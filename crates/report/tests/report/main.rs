@@ -17,4 +17,5 @@ mod page;
 mod parquet;
 mod sizes;
 mod statistics;
+mod truth;
 mod validation;
