@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use ingest::{SessionReader, annotated_key};
 
-use crate::auto::damage;
 use crate::support::{
     Shot, StudyFolder, aim_batch, assert_exit, files_below, label_me, line, published_bench, small_camera,
     small_picture, stderr,
@@ -97,26 +96,18 @@ fn a_session_that_cannot_be_annotated_stops_no_other() {
     let study = study();
     assert_exit(&aim_batch().arg("run").arg(study.path()).arg("--out").arg(out(&study)).output().unwrap(), 0);
     let recording = out(&study).with_extension("work").join("mcap/S1.mcap");
-    let size = std::fs::metadata(&recording).unwrap().len();
     damage_picture(&recording);
-    assert_eq!(std::fs::metadata(&recording).unwrap().len(), size);
     let said = run(&study, &[], 3);
     assert!(said.contains("session 'S1' has none") && said.contains("1 written"), "{said}");
-    assert!(!said.contains(study.path().to_str().unwrap()) || said.contains("--force"), "{said}");
     run(&study, &["--force"], 0);
     assert_eq!(annotated(&study).len(), 2);
 }
 
-/// A byte of a picture, if that is where the usual place of damage is not.
 fn damage_picture(recording: &Path) {
     let mut bytes = std::fs::read(recording).unwrap();
-    match bytes.windows(3).position(|three| three == [0xff, 0xd8, 0xff]) {
-        Some(at) => {
-            bytes[at + 20] ^= 0xff;
-            std::fs::write(recording, bytes).unwrap();
-        }
-        None => damage(recording),
-    }
+    let at = bytes.windows(3).position(|three| three == [0xff, 0xd8, 0xff]).unwrap();
+    bytes[at + 20] ^= 0xff;
+    std::fs::write(recording, bytes).unwrap();
 }
 
 /// Every image of the recording is in it, and it is one that this program reads.

@@ -179,7 +179,7 @@ fn rims_are_on_the_pictures_that_people_mark() {
 }
 
 /// The largest chunk holds pictures: a byte in the last third of the file is one of theirs.
-pub fn damage(recording: &Path) {
+fn damage(recording: &Path) {
     let mut bytes = std::fs::read(recording).unwrap();
     let at = bytes.len() * 2 / 3;
     bytes[at] ^= 0xff;

@@ -78,7 +78,8 @@ impl Picture {
         let mut bytes = Vec::new();
         let mut encoder = jpeg_encoder::Encoder::new(&mut bytes, quality.clamp(1, 100));
         encoder.set_sampling_factor(jpeg_encoder::SamplingFactor::F_2_2);
-        encoder.set_optimized_huffman_tables(true);
+        // Standard Huffman tables and one scan: with optimised tables this encoder writes a scan per channel, which zune-jpeg
+        // 0.5.15 decodes wrongly when the chroma is subsampled.
         // A side that does not fit is no size, and refused.
         let [width, height] = [self.width_px, self.height_px].map(|side| u16::try_from(side).unwrap_or(0));
         match encoder.encode(&self.rgb, width, height, jpeg_encoder::ColorType::Rgb) {
