@@ -33,7 +33,8 @@ pub use figure::Figure;
 pub use figures::{FigureLeftOut, Figures, figures, flow_bars, write_figures};
 pub use page::{Page, PageError, PictureError, Pictures};
 pub use parquet::{
-    ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, read_run_log, read_truth, run_file, write_truth,
+    ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, read_run_log, read_truth, run_file,
+    write_truth,
 };
 pub use render::{csv, latex, markdown, terminal, terminal_set};
 pub use table::{Align, Cell, Column, Footnote, Format, Role, RowKind, Table, TableRow};

@@ -31,6 +31,8 @@ function startSections() {
     if (link === current) return;
     current?.removeAttribute("aria-current");
     link?.setAttribute("aria-current", "true");
+    // On a narrow screen the contents are one line, of which a part shows.
+    if (link) link.closest("ul").scrollLeft = link.offsetLeft - link.offsetWidth / 2;
     current = link;
   };
   let asked = false;
