@@ -61,6 +61,8 @@ fn spot_mm(height_over_plane_mm: f64, (around_rad, distance): (f64, f64)) -> Poi
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4000))]
+
     /// The corner of a picture is the corner of its resampled copy, and so is every place between.
     #[test]
     fn a_resampled_picture_shows_the_same(camera in camera(), pixel in pixel(), size_px in [1..4000_u32, 1..3000_u32]) {
@@ -71,8 +73,6 @@ proptest! {
             prop_assert!((ray.normalize() - again.normalize()).norm() < 1e-9);
         }
     }
-
-    #![proptest_config(ProptestConfig::with_cases(4000))]
 
     /// A pixel that has a place on a plane is where that place is seen; a pixel that has none says so.
     #[test]
