@@ -160,24 +160,24 @@ pub fn read_frames(path: &Path) -> Result<Vec<FrameRow>, ReadError> {
 }
 
 fn read_rows<R: Row>(path: &Path) -> Result<(Vec<R>, RunMetadata), ReadError> {
-    let (rows, run) = read_rows_and(path, RESULTS_SCHEMA_VERSION, RUN_KEY)?;
-    let metadata =
-        serde_json::from_str(&run).map_err(|source| ReadError::Metadata { path: path.to_owned(), source })?;
-    Ok((rows, metadata))
+    read_rows_and(path, RESULTS_SCHEMA_VERSION, RUN_KEY, |run| {
+        serde_json::from_str(&run).map_err(|source| ReadError::Metadata { path: path.to_owned(), source })
+    })
 }
 
-/// Rows of a file of this version of its schema, and what its metadata has under `key`.
-pub(super) fn read_rows_and<R: Row>(
+/// Rows of a file of this version of its schema, and what `parse` makes of what its metadata has under `key`, before any row.
+pub(super) fn read_rows_and<R: Row, M>(
     path: &Path,
     version: u32,
     key: &'static str,
-) -> Result<(Vec<R>, String), ReadError> {
+    parse: impl FnOnce(String) -> Result<M, ReadError>,
+) -> Result<(Vec<R>, M), ReadError> {
     // Read, not mapped: a mapped file that another job shortens would end this one.
     let bytes = std::fs::read(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
     let not_parquet = |source| ReadError::NotParquet { path: path.to_owned(), source };
     // One thread, so that a panic on damaged bytes arises here, where it is caught.
     let mut reader = ParquetReader::new(Cursor::new(bytes)).set_rechunk(true).read_parallel(ParallelStrategy::None);
-    let metadata = metadata(&mut reader, path, version, key)?;
+    let metadata = parse(metadata(&mut reader, path, version, key)?)?;
     let schema = guarded(path, || reader.schema())?;
     let there = R::COLUMNS.iter().filter(|column| schema.contains(column.name));
     let names: Vec<String> = there.map(|column| column.name.to_owned()).collect();

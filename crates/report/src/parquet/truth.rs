@@ -30,5 +30,5 @@ pub fn write_truth(path: &Path, rows: Vec<TruthRow>, made_from: &str) -> Result<
 /// [`ReadError`]: no such file, not Parquet, not a truth of this program's version, a missing column, or a column or cell of
 /// another type.
 pub fn read_truth(path: &Path) -> Result<(Vec<TruthRow>, String), ReadError> {
-    read_rows_and(path, TRUTH_SCHEMA_VERSION, MADE_KEY)
+    read_rows_and(path, TRUTH_SCHEMA_VERSION, MADE_KEY, Ok)
 }
