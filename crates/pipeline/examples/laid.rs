@@ -76,7 +76,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (name, frames) in [("bench", bench), ("worn", worn)] {
         let examine = |(at, frame): (usize, &Frame)| {
             let view = frame.view(&camera).map_err(|e| e.to_string())?;
-            examine(frame, &view, &format!("{name}-{seed}-{at:03}"))
+            examine(frame, &view, &format!("{name}-{width}-{seed}-{at:03}"))
         };
         let reports = frames.par_iter().enumerate().map(examine).collect::<Result<Vec<Report>, String>>()?;
         write!(out, "{}", summary(name, &reports))?;
@@ -91,10 +91,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
-    let jpeg = frame.photograph(view).to_jpeg(name).map_err(|e| e.to_string())?;
-    if let Ok(folder) = std::env::var("AIM_BATCH_LAID_PICTURES") {
-        std::fs::write(format!("{folder}/{name}.jpg"), &jpeg).map_err(|e| e.to_string())?;
-    }
+    let jpeg = jpeg(frame, view, name)?;
     let picture = Picture::decode(&jpeg).map_err(|e| e.to_string())?;
     let rims = find_rims(&picture, view).map_err(|e| e.to_string())?;
     let truths = frame.truths(view);
@@ -114,7 +111,62 @@ fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
             found: best.and_then(|rim| found(rim, truth, view)),
         }
     });
+    if let Ok(folder) = std::env::var("RIM_DUMP") {
+        let mut t = String::new();
+        for rim in &rims {
+            let of = truths.iter().find(|t| is_of(rim, t, view)).map(|t| t.object);
+            let label = of.unwrap_or(if is_of_glass(rim, frame, view) { "GLASS" } else { "FALSE" });
+            let ([x, y], r) = rim.on_table_mm;
+            let size = truths.iter().find(|t| is_of(rim, t, view)).and_then(|t| found(rim, t, view));
+            let h = if rim.kind == Kind::Plate { rim.plate_height } else { rim.height };
+            t += &format!("RIM,{name},{label},{:.4},{x:.1},{y:.1},{r:.1},{:.2},{},{:.1},{:.1},{:?},{}", rim.confidence,
+                size.map_or(0.0, |s| 100.0 * s.diameter),  rim.kind, h.mm, h.sigma_mm, h.source, rim.debug);
+            if let Some(truth) = truths.iter().find(|t| is_of(rim, t, view)) {
+                let mut sums = [(0.0_f64, 0); 8];
+                let away = truth.center_y_mm.atan2(truth.center_x_mm);
+                let radius = 0.5 * truth.true_diameter_mm.unwrap_or(1.0);
+                for q in &rim.points_px {
+                    if let Ok(at) = view.on_plane(*q, truth.rim_level_mm) {
+                        let (dx, dy) = (at.x - truth.center_x_mm, at.y - truth.center_y_mm);
+                        let turn = ((dy.atan2(dx) - away) / std::f64::consts::TAU + 1.0 / 16.0).rem_euclid(1.0);
+                        let sector = ((turn * 8.0) as usize).min(7);
+                        sums[sector].0 += dx.hypot(dy) - radius;
+                        sums[sector].1 += 1;
+                    }
+                }
+                t += " OFF far..near..: ";
+                for (sum, n) in sums { t += &format!("{:.1}({n}) ", sum / f64::from(n.max(1))); }
+            }
+            t += ",";
+            for q in &rim.points_px { t += &format!("{:.1}:{:.1} ", q.x, q.y); }
+            t += "\n";
+        }
+        for truth in &truths {
+            if truth.kind == Kind::Box { continue; }
+            t += &format!("TRUTH,{name},{},{:.2},{:.1},{:.1},{:.1},{:.1},{:.1},pitch {:.0} cam {:.0},", truth.object, truth.rim_seen, truth.center_x_mm, truth.center_y_mm,
+               truth.true_diameter_mm.unwrap_or(0.0)*0.5, truth.rim_level_mm, truth.true_height_mm, frame.head.pitch_deg, view.pose().camera_height_mm());
+            for i in 0..72 { let a = f64::from(i) / 72.0 * std::f64::consts::TAU; let r = 0.5 * truth.true_diameter_mm.unwrap_or(0.0);
+              if let Ok(q) = view.pixel_of(nalgebra::Point3::new(truth.center_x_mm + r * a.cos(), truth.center_y_mm + r * a.sin(), truth.rim_level_mm)) { t += &format!("{:.1}:{:.1} ", q.x, q.y); } }
+            t += "\n";
+        }
+        std::fs::write(format!("{folder}/{name}.txt"), t).unwrap();
+    }
     Ok(Report { cases: cases.collect(), rims: judged, glasses, is_bare: truths.is_empty() })
+}
+
+/// The picture, from the folder where it is kept, or taken.
+fn jpeg(frame: &Frame, view: &View, name: &str) -> Result<Vec<u8>, String> {
+    let taken = || frame.photograph(view).to_jpeg(name).map_err(|e| e.to_string());
+    let Ok(folder) = std::env::var("AIM_BATCH_LAID_PICTURES") else { return taken() };
+    let file = format!("{folder}/{name}.jpg");
+    match std::fs::read(&file) {
+        Ok(jpeg) => Ok(jpeg),
+        Err(_) => {
+            let jpeg = taken()?;
+            std::fs::write(&file, &jpeg).map_err(|e| e.to_string())?;
+            Ok(jpeg)
+        }
+    }
 }
 
 /// Whether a rim is a level circle of a drinking glass: its rim, its foot, or what it holds.
@@ -151,11 +203,13 @@ fn found(rim: &Rim, truth: &Truth, view: &View) -> Option<Found> {
         let diameter = sizes.into_iter().find(|(quantity, _)| *quantity == Quantity::Diameter)?;
         Some(diameter.1.ok()?.measured.predicted_mm)
     };
+    let container = Container { kind: truth.kind, shape: Shape::Circle, rim_height_mm: None, wall: None };
+    let height = rim.height_as(&container);
     Some(Found {
         diameter: size_mm(Some(truth.rim_level_mm))? / truth_mm - 1.0,
         diameter_alone: size_mm(None)? / truth_mm - 1.0,
-        height: rim.height.mm / truth.true_height_mm - 1.0,
-        from_foot: rim.height.source == HeightSource::Foot,
+        height: height.mm / truth.rim_level_mm - 1.0,
+        from_foot: height.source != HeightSource::Common,
     })
 }
 

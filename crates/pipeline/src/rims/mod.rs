@@ -12,9 +12,11 @@ mod arcs;
 mod buckets;
 mod chains;
 mod edges;
+mod floor;
 mod found;
 mod ground;
 mod height;
+mod lip;
 mod outward;
 mod raster;
 mod refine;
@@ -26,6 +28,7 @@ mod sizes;
 #[cfg(test)]
 mod tests;
 mod votes;
+mod wall;
 
 use ingest::Picture;
 use model::{Feature, Kind, Mark, ObjectMarks, View};
@@ -54,8 +57,12 @@ pub struct Rim {
     pub coverage: f64,
     /// Its height if it is a bowl's.
     pub height: RimHeight,
+    /// Its height if it is a plate's.
+    pub plate_height: RimHeight,
     /// Centre (world X, Y) and radius of the circle that it appears as on the plane Z = 0, in mm.
     pub on_table_mm: ([f64; 2], f64),
+    /// Dev.
+    pub debug: String,
 }
 
 /// Why rims cannot be looked for.
@@ -81,12 +88,8 @@ pub enum RimError {
     },
 }
 
-/// Plates are wider than this (the second: nothing else is), and lower than this share of their diameter.
-const PLATE_MM: f64 = 190.0;
-const ALWAYS_PLATE_MM: f64 = 220.0;
-const PLATE_HEIGHT: f64 = 0.3;
 /// Version of what is found. A change of meaning gives another number, and pictures are searched anew.
-pub(crate) const VERSION: u32 = 1;
+pub(crate) const VERSION: u32 = 2;
 /// Fewer points do not hold a rim.
 pub(crate) const LEAST_POINTS: usize = 12;
 
@@ -109,29 +112,24 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
     Ok(rims
         .iter()
         .filter_map(|found| {
-            let height = height::of_bowl(&buckets, &found.arc, view.pose().camera_height_mm());
-            let points_px = refine::follow(picture, view, &found.arc, scaled.factor);
-            let center_px = view.pixel_of(Point3::new(found.arc.disc.x, found.arc.disc.y, 0.0)).ok()?;
+            let arc = lip::outer_edge(picture, view, found.arc.clone(), scaled.factor);
+            let heights = height::of_rim(&buckets, &arc, view.pose().camera_height_mm());
+            let points_px = refine::follow(picture, view, &arc, scaled.factor);
+            let center_px = view.pixel_of(Point3::new(arc.disc.x, arc.disc.y, 0.0)).ok()?;
             (points_px.len() >= LEAST_POINTS).then(|| Rim {
-                kind: kind(&found.arc, height, view),
+                kind: if heights.is_plate >= 0.5 { Kind::Plate } else { Kind::Bowl },
                 confidence: found.confidence,
                 center_px,
                 points_px,
-                perimeter_px: found.arc.perimeter_px * scaled.factor as f64,
+                perimeter_px: arc.perimeter_px * scaled.factor as f64,
                 coverage: found.evidence.coverage,
-                on_table_mm: ([found.arc.disc.x, found.arc.disc.y], found.arc.disc.radius),
-                height,
+                debug: format!("{:?} contrast {:.1} residual {:.3} chance {:.3} perim {:.0}", found.evidence, found.arc.contrast, found.arc.residual_px, found.arc.chance, found.arc.perimeter_px).replace(',', ";"),
+                on_table_mm: ([arc.disc.x, arc.disc.y], arc.disc.radius),
+                height: heights.bowl,
+                plate_height: heights.plate,
             })
         })
         .collect())
-}
-
-/// What it looks like: a plate is very wide, or wide without a high wall below its rim (a shadow may look like a low one).
-fn kind(arc: &Arc, height: RimHeight, view: &View) -> Kind {
-    let on_table_mm = 2.0 * arc.disc.radius;
-    let diameter_mm = on_table_mm * (1.0 - height.mm / view.pose().camera_height_mm());
-    let shows_a_wall = height.source == HeightSource::Foot && height.mm > PLATE_HEIGHT * diameter_mm;
-    if on_table_mm >= ALWAYS_PLATE_MM || (on_table_mm >= PLATE_MM && !shows_a_wall) { Kind::Plate } else { Kind::Bowl }
 }
 
 impl Rim {

@@ -76,6 +76,22 @@ impl Raster {
             && self.sectors[row as usize * self.columns + column as usize] & (1 << sector(normal_rad as f32)) != 0
     }
 
+    /// Share of the places in a ring about a circle that have an edge with some normal: what chance makes of a look.
+    pub(super) fn share(&self, disc: &Disc, rings: [f64; 2]) -> f64 {
+        let (mut held, mut all) = (0_u32, 0_u32);
+        for turn in 0..48 {
+            let angle = f64::from(turn) / 48.0 * std::f64::consts::TAU;
+            for ring in 0..12 {
+                let radius = disc.radius * (rings[0] + (rings[1] - rings[0]) * f64::from(ring) / 11.0);
+                let at = [disc.x + radius * angle.cos(), disc.y + radius * angle.sin()];
+                // Seven directions a half turn apart from each other's, none of them along the ring's own.
+                held += (1..7).filter(|i| self.has_edge(at, angle + f64::from(*i) / 7.0 * std::f64::consts::PI)).count() as u32;
+                all += 6;
+            }
+        }
+        f64::from(held) / f64::from(all)
+    }
+
     #[expect(clippy::cast_possible_truncation, reason = "cells")]
     fn cell_of(&self, x: f32, y: f32) -> (i64, i64) {
         (((x - self.left) / self.cell).floor() as i64, ((y - self.near) / self.cell).floor() as i64)

@@ -86,7 +86,7 @@ fn across(picture: &Picture, view: &View, arc: &Arc, angle: f64, reach_px: f64) 
 
 /// Colour at a place between pixels.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "inside the picture")]
-fn colour(picture: &Picture, at: Point2<f64>) -> Option<[f64; 3]> {
+pub(super) fn colour(picture: &Picture, at: Point2<f64>) -> Option<[f64; 3]> {
     let (width, height) = (picture.width_px as usize, picture.height_px as usize);
     if !(at.x >= 0.0 && at.y >= 0.0) {
         return None;
