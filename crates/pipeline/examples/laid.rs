@@ -4,8 +4,9 @@
 //! cargo run -p aim-batch-pipeline --example laid -- SEED [BENCHES [WORN_SESSIONS [IMAGES [WIDTH]]]]
 //! ```
 //!
-//! Prints tables. With AIM_BATCH_LAID_PICTURES=DIR every picture is kept there as JPEG. With AIM_BATCH_LAID_CSV=FILE, one
-//! line per rim found, drinking glasses' left out: confidence, right or not.
+//! Prints tables. With AIM_BATCH_LAID_PICTURES=DIR every picture is kept there as JPEG, and taken from there if it is there
+//! already. With AIM_BATCH_LAID_CSV=FILE, one line per rim found, drinking glasses' left out: picture, confidence, right or
+//! not, what its confidence is worked out from (for the example `confidence`).
 
 use std::error::Error;
 use std::io::Write as _;
@@ -16,7 +17,7 @@ use nalgebra::Point2;
 use rayon::prelude::*;
 use simulate::laid::{self, Frame, Truth};
 
-use aim_batch_pipeline::rims::{HeightSource, Rim, find_rims};
+use aim_batch_pipeline::rims::{FEATURES, HeightSource, LEAST_DIAMETER_MM, Rim, find_rims};
 
 /// A rim is found from this confidence on.
 const LEAST_CONFIDENCE: f64 = 0.5;
@@ -50,13 +51,23 @@ struct Found {
 /// Which cases a line of a table counts.
 type Keep = fn(&Case) -> bool;
 
+/// A rim found.
+struct Judged {
+    confidence: f64,
+    features: [f64; FEATURES],
+    is_right: bool,
+    /// Too narrow for a run to keep it.
+    is_cup: bool,
+}
+
 /// What was found in one picture.
 struct Report {
     cases: Vec<Case>,
-    /// Confidence of each rim that is not a drinking glass's, and whether it is one of a container.
-    rims: Vec<(f64, bool)>,
-    /// Drinking glasses taken for containers.
-    glasses: usize,
+    name: String,
+    /// Each rim that is not a drinking glass's, and whether it is one of a container.
+    rims: Vec<Judged>,
+    /// Drinking glasses found, and those of them that a run would keep.
+    glasses: [usize; 2],
     /// No container at all.
     is_bare: bool,
 }
@@ -72,7 +83,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         (0..benches).flat_map(|at| laid::bench(seed * 1000 + at, width)).flat_map(|plan| plan.frames).collect();
     let worn = laid::worn(seed, width, usize::try_from(sessions)?, usize::try_from(images)?);
     let worn: Vec<Frame> = worn.into_iter().flat_map(|plan| plan.frames).collect();
-    let mut rims = Vec::new();
+    let (mut rims, mut csv) = (Vec::new(), String::new());
     for (name, frames) in [("bench", bench), ("worn", worn)] {
         let examine = |(at, frame): (usize, &Frame)| {
             let view = frame.view(&camera).map_err(|e| e.to_string())?;
@@ -80,12 +91,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let reports = frames.par_iter().enumerate().map(examine).collect::<Result<Vec<Report>, String>>()?;
         write!(out, "{}", summary(name, &reports))?;
+        csv.extend(reports.iter().flat_map(|report| report.rims.iter().map(|rim| rim.csv(&report.name))));
         rims.extend(reports.into_iter().flat_map(|report| report.rims));
     }
     write!(out, "{}", reliability(&rims))?;
     if let Ok(file) = std::env::var("AIM_BATCH_LAID_CSV") {
-        let lines: Vec<String> = rims.iter().map(|(c, right)| format!("{c:.5},{}", u8::from(*right))).collect();
-        std::fs::write(file, lines.join("\n"))?;
+        std::fs::write(file, csv)?;
     }
     Ok(())
 }
@@ -97,9 +108,16 @@ fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
     let truths = frame.truths(view);
     let (others, glasses): (Vec<&Rim>, Vec<&Rim>) =
         rims.iter().partition(|rim| truths.iter().any(|t| is_of(rim, t, view)) || !is_of_glass(rim, frame, view));
-    let glasses = glasses.iter().filter(|rim| rim.confidence >= LEAST_CONFIDENCE).count();
-    let judged =
-        others.iter().map(|rim| (rim.confidence, truths.iter().any(|truth| is_of(rim, truth, view)))).collect();
+    let is_cup = |rim: &Rim| rim.diameter_mm(view) < LEAST_DIAMETER_MM;
+    let sure = || glasses.iter().filter(|rim| rim.confidence >= LEAST_CONFIDENCE);
+    let glasses = [sure().count(), sure().filter(|rim| !is_cup(rim)).count()];
+    let judged = others.iter().map(|rim| Judged {
+        confidence: rim.confidence,
+        features: rim.evidence.features(),
+        is_right: truths.iter().any(|truth| is_of(rim, truth, view)),
+        is_cup: is_cup(rim),
+    });
+    let judged = judged.collect();
     let cases = truths.iter().filter(|truth| truth.kind != Kind::Box).map(|truth| {
         let sure = rims.iter().filter(|rim| rim.confidence >= LEAST_CONFIDENCE && is_of(rim, truth, view));
         let best = sure.max_by(|a, b| a.confidence.total_cmp(&b.confidence));
@@ -111,47 +129,7 @@ fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
             found: best.and_then(|rim| found(rim, truth, view)),
         }
     });
-    if let Ok(folder) = std::env::var("RIM_DUMP") {
-        let mut t = String::new();
-        for rim in &rims {
-            let of = truths.iter().find(|t| is_of(rim, t, view)).map(|t| t.object);
-            let label = of.unwrap_or(if is_of_glass(rim, frame, view) { "GLASS" } else { "FALSE" });
-            let ([x, y], r) = rim.on_table_mm;
-            let size = truths.iter().find(|t| is_of(rim, t, view)).and_then(|t| found(rim, t, view));
-            let h = if rim.kind == Kind::Plate { rim.plate_height } else { rim.height };
-            t += &format!("RIM,{name},{label},{:.4},{x:.1},{y:.1},{r:.1},{:.2},{},{:.1},{:.1},{:?},{}", rim.confidence,
-                size.map_or(0.0, |s| 100.0 * s.diameter),  rim.kind, h.mm, h.sigma_mm, h.source, rim.debug);
-            if let Some(truth) = truths.iter().find(|t| is_of(rim, t, view)) {
-                let mut sums = [(0.0_f64, 0); 8];
-                let away = truth.center_y_mm.atan2(truth.center_x_mm);
-                let radius = 0.5 * truth.true_diameter_mm.unwrap_or(1.0);
-                for q in &rim.points_px {
-                    if let Ok(at) = view.on_plane(*q, truth.rim_level_mm) {
-                        let (dx, dy) = (at.x - truth.center_x_mm, at.y - truth.center_y_mm);
-                        let turn = ((dy.atan2(dx) - away) / std::f64::consts::TAU + 1.0 / 16.0).rem_euclid(1.0);
-                        let sector = ((turn * 8.0) as usize).min(7);
-                        sums[sector].0 += dx.hypot(dy) - radius;
-                        sums[sector].1 += 1;
-                    }
-                }
-                t += " OFF far..near..: ";
-                for (sum, n) in sums { t += &format!("{:.1}({n}) ", sum / f64::from(n.max(1))); }
-            }
-            t += ",";
-            for q in &rim.points_px { t += &format!("{:.1}:{:.1} ", q.x, q.y); }
-            t += "\n";
-        }
-        for truth in &truths {
-            if truth.kind == Kind::Box { continue; }
-            t += &format!("TRUTH,{name},{},{:.2},{:.1},{:.1},{:.1},{:.1},{:.1},pitch {:.0} cam {:.0},", truth.object, truth.rim_seen, truth.center_x_mm, truth.center_y_mm,
-               truth.true_diameter_mm.unwrap_or(0.0)*0.5, truth.rim_level_mm, truth.true_height_mm, frame.head.pitch_deg, view.pose().camera_height_mm());
-            for i in 0..72 { let a = f64::from(i) / 72.0 * std::f64::consts::TAU; let r = 0.5 * truth.true_diameter_mm.unwrap_or(0.0);
-              if let Ok(q) = view.pixel_of(nalgebra::Point3::new(truth.center_x_mm + r * a.cos(), truth.center_y_mm + r * a.sin(), truth.rim_level_mm)) { t += &format!("{:.1}:{:.1} ", q.x, q.y); } }
-            t += "\n";
-        }
-        std::fs::write(format!("{folder}/{name}.txt"), t).unwrap();
-    }
-    Ok(Report { cases: cases.collect(), rims: judged, glasses, is_bare: truths.is_empty() })
+    Ok(Report { name: name.to_owned(), cases: cases.collect(), rims: judged, glasses, is_bare: truths.is_empty() })
 }
 
 /// The picture, from the folder where it is kept, or taken.
@@ -233,15 +211,18 @@ fn summary(name: &str, reports: &[Report]) -> String {
     for object in objects {
         text += &line(object, &cases.iter().filter(|case| case.object == object).collect::<Vec<_>>());
     }
-    let false_in = |report: &&Report| report.rims.iter().any(|(c, right)| *c >= LEAST_CONFIDENCE && !right);
+    let is_false = |rim: &Judged| rim.confidence >= LEAST_CONFIDENCE && !rim.is_right && !rim.is_cup;
+    let false_in = |report: &&Report| report.rims.iter().any(is_false);
     let bare: Vec<&Report> = reports.iter().filter(|report| report.is_bare).collect();
     text += &format!(
-        "  false rims: in {} of {} pictures without a container, in {} of {} with; and of drinking glasses: {}\n",
+        "  false rims of 90 mm and more: in {} of {} pictures without a container, in {} of {} with; drinking glasses found {}, \
+         kept by a run {}\n",
         bare.iter().filter(|r| false_in(r)).count(),
         bare.len(),
         reports.iter().filter(|r| !r.is_bare).filter(false_in).count(),
         reports.len() - bare.len(),
-        reports.iter().map(|r| r.glasses).sum::<usize>(),
+        reports.iter().map(|r| r.glasses[0]).sum::<usize>(),
+        reports.iter().map(|r| r.glasses[1]).sum::<usize>(),
     );
     text
 }
@@ -274,14 +255,21 @@ fn quantile(values: &[f64], p: f64) -> Option<f64> {
     sorted.get((p * (sorted.len().checked_sub(1)?) as f64).round() as usize).copied()
 }
 
-/// Of the rims in each band of confidence, how many are right.
-fn reliability(rims: &[(f64, bool)]) -> String {
-    let bands = [0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 1.01];
+/// Of the rims in each band of confidence, how many are right, and how many should be.
+fn reliability(rims: &[Judged]) -> String {
+    let bands = [0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 1.01];
     let rows = bands.windows(2).map(|band| {
-        let inside: Vec<bool> =
-            rims.iter().filter(|(c, _)| (band[0]..band[1]).contains(c)).map(|(_, right)| *right).collect();
-        let right = inside.iter().filter(|right| **right).count();
-        format!("  {:.2} to {:.2}: {right} of {} right\n", band[0], band[1].min(1.0), inside.len())
+        let inside: Vec<&Judged> = rims.iter().filter(|rim| (band[0]..band[1]).contains(&rim.confidence)).collect();
+        let right = inside.iter().filter(|rim| rim.is_right).count();
+        let expected: f64 = inside.iter().map(|rim| rim.confidence).sum();
+        format!("  {:.2} to {:.2}: {right} of {} right, {expected:.1} expected\n", band[0], band[1].min(1.0), inside.len())
     });
     std::iter::once("confidence\n".to_owned()).chain(rows).collect()
+}
+
+impl Judged {
+    fn csv(&self, picture: &str) -> String {
+        let features: Vec<String> = self.features.iter().map(|feature| format!("{feature:.5}")).collect();
+        format!("{picture},{:.5},{},{}\n", self.confidence, u8::from(self.is_right), features.join(","))
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::arcs::Arc;
 use super::height::says;
-use super::raster::Raster;
+use super::raster::{Chances, Raster};
 
 /// Height of a floor above the table, in mm: foot ring and thickness; and how common.
 const LEVELS: [(f64, f64); 3] = [(4.0, 0.25), (7.5, 0.5), (11.0, 0.25)];
@@ -23,7 +23,7 @@ pub(super) struct Floors<'a> {
     pub rim: &'a Arc,
     pub raster: &'a Raster,
     /// Chance of an edge that means nothing.
-    pub chance: f64,
+    pub chances: Chances,
     /// Millimetres per scaled pixel.
     pub scale: f64,
     pub camera_mm: f64,
@@ -56,7 +56,7 @@ impl Floors<'_> {
             let angle = f64::from(place) / f64::from(PLACES) * std::f64::consts::TAU;
             let at = [rim.x * t + radius * angle.cos(), rim.y * t + radius * angle.sin()];
             if (at[0] - rim.x).hypot(at[1] - rim.y) < rim.radius - CLEAR_PX * self.scale {
-                sum += says(self.raster.has_edge(at, angle), SHOWS, self.chance);
+                sum += says(self.raster.has_edge(at, angle), SHOWS, self.chances.of(angle));
             }
         }
         sum

@@ -72,12 +72,13 @@ const FURTHEST: f64 = 6.0;
 const STEP_PX: f64 = 3.0;
 /// Walls bulge, feet have rounded edges and shadows: relative standard deviation of a height from that.
 const MODEL: f64 = 0.05;
-/// Least chance of an edge that means nothing.
-const LEAST_CHANCE: f64 = 0.05;
-const MOST_CHANCE: f64 = 0.4;
+/// Least and greatest chance of an edge that means nothing.
+const CHANCE: (f64, f64) = (0.05, 0.7);
 /// Where it is counted: rings within and around the rim, in radii.
 const WITHIN: [f64; 2] = [0.2, 0.85];
 const AROUND: [f64; 2] = [1.15, 1.8];
+/// A wall stands out from the table as its rim does, this share of it at least: a shadow does less.
+const AS_STRONG: f64 = 0.35;
 /// Neighbouring places are not independent: what they say counts this much.
 const INDEPENDENT: f64 = 0.3;
 /// Share of what is taken for a foot or floor that is none.
@@ -134,10 +135,14 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
     let scale = std::f64::consts::TAU * rim.disc.radius / rim.perimeter_px;
     // The lowest foot that is tried, and what is around it.
     let lowest = away * (1.0 - shrink(rim, camera_mm, TRIED.1)) + rim.disc.radius;
-    let raster = Raster::of(buckets, [rim.disc.x, rim.disc.y], lowest.min(FURTHEST * rim.disc.radius), scale);
-    let chance = |rings: [f64; 2]| raster.share(&rim.disc, rings).clamp(LEAST_CHANCE, MOST_CHANCE);
-    let floors = Floors { rim, raster: &raster, chance: chance(WITHIN), scale, camera_mm };
-    let chance = chance(AROUND);
+    let center = [rim.disc.x, rim.disc.y];
+    #[expect(clippy::cast_possible_truncation, reason = "levels")]
+    let least = (AS_STRONG * rim.contrast) as f32;
+    let outside = Raster::of(buckets, center, lowest.min(FURTHEST * rim.disc.radius), scale, least);
+    let inside = Raster::of(buckets, center, rim.disc.radius, scale, 0.0);
+    let chances = |raster: &Raster, rings| raster.chances(&rim.disc, rings, CHANCE);
+    let floors = Floors { rim, raster: &inside, chances: chances(&inside, WITHIN), scale, camera_mm };
+    let chances = chances(&outside, AROUND);
     let mut trials = Vec::new();
     let mut ratio = TRIED.0;
     while ratio < TRIED.1 {
@@ -149,7 +154,7 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
             let mut foot = FOOT.0;
             while foot < FOOT.1 {
                 let outline = Outline { rim, height_mm, camera_mm, foot, round, step: STEP_PX * scale };
-                let below = INDEPENDENT * outline.seen(&raster, chance, scale);
+                let below = INDEPENDENT * outline.seen(&outside, &chances, scale);
                 let likely = -0.5 * ((foot - FEET.0) / FEET.1).powi(2);
                 trials.push(Trial { height_mm, below, within, plate: plate + likely, bowl: bowl + likely });
                 foot += FOOT.2;
@@ -182,5 +187,6 @@ fn shrink(rim: &Arc, camera_mm: f64, ratio: f64) -> f64 {
 /// Logarithm of how much likelier it is with something there than without that an edge is seen at a place, or is not.
 /// `shows`: share of such places that show an edge; `chance`: of all others.
 pub(super) fn says(is_edge: bool, shows: f64, chance: f64) -> f64 {
+    let shows = shows.max(chance); // an edge speaks against nothing
     if is_edge { (shows / chance).ln() } else { ((1.0 - shows) / (1.0 - chance)).ln() }
 }

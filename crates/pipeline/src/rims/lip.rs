@@ -75,15 +75,16 @@ fn edges(picture: &Picture, view: &View, arc: &Arc, angle: f64, px_mm: f64) -> V
     let outward = (furthest_mm(arc.disc.radius) / step_mm + TABLE_PX.1 / STEP_PX) as usize + HALF + 1;
     let radius = { let [x, y] = arc.at(angle); (x - arc.disc.x).hypot(y - arc.disc.y) };
     let off = |i: usize| (i as f64 - inward as f64) * step_mm;
-    // The mean of three places along the rim, a pixel and a half apart.
+    // The mean of five places along the rim, a pixel and a half apart, or less on a small one.
+    let apart_mm = (1.5 * px_mm).min(0.015 * radius);
     let sample = |i: usize| -> Option<[f64; 3]> {
         let mut sum = [0.0; 3];
-        for beside in [-1.5, 0.0, 1.5] {
-            let turned = angle + beside * px_mm / radius;
+        for beside in [-2.0, -1.0, 0.0, 1.0, 2.0] {
+            let turned = angle + beside * apart_mm / radius;
             let r = radius + off(i);
             let at = Point3::new(arc.disc.x + r * turned.cos(), arc.disc.y + r * turned.sin(), 0.0);
             let c = colour(picture, view.pixel_of(at).ok()?)?;
-            sum = [0, 1, 2].map(|k| sum[k] + c[k] / 3.0);
+            sum = [0, 1, 2].map(|k| sum[k] + c[k] / 5.0);
         }
         Some(sum)
     };

@@ -3,8 +3,9 @@
 //! The pose is known, so a level circle at any height is a circle on the plane Z = 0 ([`ground`]). Edges of the picture at a
 //! reduced scale are linked to chains ([`edges`], [`chains`]), carried to that plane, and vote there for circles
 //! ([`votes`]); likely circles are fitted ([`arcs`]), carried from inner to outer edges ([`outward`]), weighed against
-//! chance ([`significance`]), and one per container is kept ([`select`]). The rim is then followed through the full picture
-//! ([`refine`]). Its height comes from the foot below it ([`height`]).
+//! chance ([`significance`]), and one per container is kept ([`select`]). In the full picture the outer edge is found
+//! ([`lip`]) and followed ([`refine`]). The height comes from foot and wall below the rim and the floor within it ([`height`],
+//! [`wall`], [`floor`]).
 //!
 //! A found rim becomes the same [`ObjectMarks`] as a person's marks, and is measured by the same code.
 
@@ -34,11 +35,14 @@ use ingest::Picture;
 use model::{Feature, Kind, Mark, ObjectMarks, View};
 use nalgebra::{Point2, Point3};
 
-use arcs::Arc;
 use buckets::Buckets;
 pub use found::Found;
+use height::Heights;
 pub use height::{HeightSource, RimHeight};
+use refine::Followed;
 use scaled::Scaled;
+use select::Scored;
+pub use significance::{Evidence, FEATURES};
 
 /// A rim found in a picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,16 +57,14 @@ pub struct Rim {
     pub points_px: Vec<Point2<f64>>,
     /// Length of the rim as it appears.
     pub perimeter_px: f64,
-    /// Share of the rim that has an edge along it, of what lies in the picture.
-    pub coverage: f64,
+    /// What speaks for it.
+    pub evidence: Evidence,
     /// Its height if it is a bowl's.
     pub height: RimHeight,
     /// Its height if it is a plate's.
     pub plate_height: RimHeight,
     /// Centre (world X, Y) and radius of the circle that it appears as on the plane Z = 0, in mm.
     pub on_table_mm: ([f64; 2], f64),
-    /// Dev.
-    pub debug: String,
 }
 
 /// Why rims cannot be looked for.
@@ -90,6 +92,8 @@ pub enum RimError {
 
 /// Version of what is found. A change of meaning gives another number, and pictures are searched anew.
 pub(crate) const VERSION: u32 = 2;
+/// Plates and bowls are wider; cups, mugs and drinking glasses are not. A study may set another limit.
+pub const LEAST_DIAMETER_MM: f64 = 90.0;
 /// Fewer points do not hold a rim.
 pub(crate) const LEAST_POINTS: usize = 12;
 
@@ -108,31 +112,44 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
     }
     let scaled = Scaled::of(picture);
     let buckets = Buckets::new(&ground::ground_edges(view, &scaled));
-    let rims = search::rims(view, &buckets);
-    Ok(rims
-        .iter()
-        .filter_map(|found| {
-            let arc = lip::outer_edge(picture, view, found.arc.clone(), scaled.factor);
-            let heights = height::of_rim(&buckets, &arc, view.pose().camera_height_mm());
-            let points_px = refine::follow(picture, view, &arc, scaled.factor);
-            let center_px = view.pixel_of(Point3::new(arc.disc.x, arc.disc.y, 0.0)).ok()?;
-            (points_px.len() >= LEAST_POINTS).then(|| Rim {
-                kind: if heights.is_plate >= 0.5 { Kind::Plate } else { Kind::Bowl },
-                confidence: found.confidence,
-                center_px,
-                points_px,
-                perimeter_px: arc.perimeter_px * scaled.factor as f64,
-                coverage: found.evidence.coverage,
-                debug: format!("{:?} contrast {:.1} residual {:.3} chance {:.3} perim {:.0}", found.evidence, found.arc.contrast, found.arc.residual_px, found.arc.chance, found.arc.perimeter_px).replace(',', ";"),
-                on_table_mm: ([arc.disc.x, arc.disc.y], arc.disc.radius),
-                height: heights.bowl,
-                plate_height: heights.plate,
-            })
-        })
-        .collect())
+    let found = search::rims(view, &buckets);
+    let mut rims: Vec<Rim> =
+        found.iter().filter_map(|found| in_full(picture, view, &buckets, found, scaled.factor)).collect();
+    rims.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
+    Ok(rims)
+}
+
+/// A circle that was found, followed through the full picture; none where too little of it is seen there.
+#[expect(clippy::cast_precision_loss, reason = "a small factor")]
+fn in_full(picture: &Picture, view: &View, buckets: &Buckets, found: &Scored, factor: usize) -> Option<Rim> {
+    let arc = lip::outer_edge(picture, view, found.arc.clone(), factor);
+    let Followed { points_px, sharp } = refine::follow(picture, view, &arc, factor);
+    if points_px.len() < LEAST_POINTS {
+        return None;
+    }
+    let Heights { plate, bowl, is_plate } = height::of_rim(buckets, &arc, view.pose().camera_height_mm());
+    let evidence = Evidence { sharp, ..found.evidence };
+    Some(Rim {
+        confidence: evidence.confidence(),
+        evidence,
+        kind: if is_plate >= 0.5 { Kind::Plate } else { Kind::Bowl },
+        center_px: view.pixel_of(Point3::new(arc.disc.x, arc.disc.y, 0.0)).ok()?,
+        points_px,
+        perimeter_px: arc.perimeter_px * factor as f64,
+        height: bowl,
+        plate_height: plate,
+        on_table_mm: ([arc.disc.x, arc.disc.y], arc.disc.radius),
+    })
 }
 
 impl Rim {
+    /// Its diameter if it is what it looks like, in mm.
+    #[must_use]
+    pub fn diameter_mm(&self, view: &View) -> f64 {
+        let height = if self.kind == Kind::Plate { self.plate_height } else { self.height };
+        2.0 * self.on_table_mm.1 * (1.0 - height.mm / view.pose().camera_height_mm())
+    }
+
     /// The marks that a person would have made.
     #[must_use]
     pub fn marks(&self, object: &str) -> ObjectMarks {

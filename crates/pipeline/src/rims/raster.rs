@@ -17,6 +17,21 @@ const CELLS_PER_PX: f64 = 1.5;
 /// Cells along a side, at most.
 const MOST_CELLS: f64 = 1200.0;
 
+/// Places that are counted for [`Chances`]: around, and from ring to ring.
+const TURNS: u32 = 60;
+const RINGS: u32 = 16;
+
+/// Chance of an edge that means nothing, by the direction of its normal.
+pub(super) struct Chances([f64; SECTORS as usize]);
+
+impl Chances {
+    /// For a normal in this direction, to either side.
+    #[expect(clippy::cast_possible_truncation, reason = "an angle")]
+    pub(super) fn of(&self, normal_rad: f64) -> f64 {
+        self.0[sector(normal_rad as f32) as usize]
+    }
+}
+
 /// Which normals edges have, by place.
 pub(super) struct Raster {
     left: f32,
@@ -28,10 +43,10 @@ pub(super) struct Raster {
 }
 
 impl Raster {
-    /// The edges within a square about a circle, that reaches as far as `reach` (mm) from its centre. `scale`: mm per scaled
-    /// pixel.
+    /// The edges within a square about a circle, that reaches as far as `reach` (mm) from its centre, and are at least as
+    /// strong as `least` (levels per scaled pixel). `scale`: mm per scaled pixel.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]
-    pub(super) fn of(buckets: &Buckets, center: [f64; 2], reach: f64, scale: f64) -> Self {
+    pub(super) fn of(buckets: &Buckets, center: [f64; 2], reach: f64, scale: f64, least: f32) -> Self {
         let cell = (scale / CELLS_PER_PX).max(2.0 * reach / MOST_CELLS);
         let columns = (2.0 * reach / cell) as usize + 1;
         let mut raster = Self {
@@ -43,7 +58,11 @@ impl Raster {
         };
         // All edges of the disc, as those near the rim of one half its size.
         let disc = Disc { x: center[0], y: center[1], radius: 0.75 * reach };
-        buckets.near_rim(&disc, 0.76 * reach as f32, |e| raster.draw(e));
+        buckets.near_rim(&disc, 0.76 * reach as f32, |e| {
+            if e.contrast >= least {
+                raster.draw(e);
+            }
+        });
         raster
     }
 
@@ -67,29 +86,34 @@ impl Raster {
     }
 
     /// Whether an edge with this normal (to either side) lies at a place.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]
+    #[expect(clippy::cast_possible_truncation, reason = "an angle")]
     pub(super) fn has_edge(&self, at: [f64; 2], normal_rad: f64) -> bool {
-        let (column, row) = self.cell_of(at[0] as f32, at[1] as f32);
-        let inside = |i: i64| (0..self.columns as i64).contains(&i);
-        inside(column)
-            && inside(row)
-            && self.sectors[row as usize * self.columns + column as usize] & (1 << sector(normal_rad as f32)) != 0
+        self.sectors_at(at) & (1 << sector(normal_rad as f32)) != 0
     }
 
-    /// Share of the places in a ring about a circle that have an edge with some normal: what chance makes of a look.
-    pub(super) fn share(&self, disc: &Disc, rings: [f64; 2]) -> f64 {
-        let (mut held, mut all) = (0_u32, 0_u32);
-        for turn in 0..48 {
-            let angle = f64::from(turn) / 48.0 * std::f64::consts::TAU;
-            for ring in 0..12 {
-                let radius = disc.radius * (rings[0] + (rings[1] - rings[0]) * f64::from(ring) / 11.0);
-                let at = [disc.x + radius * angle.cos(), disc.y + radius * angle.sin()];
-                // Seven directions a half turn apart from each other's, none of them along the ring's own.
-                held += (1..7).filter(|i| self.has_edge(at, angle + f64::from(*i) / 7.0 * std::f64::consts::PI)).count() as u32;
-                all += 6;
+    /// For each sector of directions, the share of the places in a ring about a circle that have an edge with such a normal:
+    /// what chance makes of a look, on striped cloth much in one direction and little in others.
+    pub(super) fn chances(&self, disc: &Disc, rings: [f64; 2], limits: (f64, f64)) -> Chances {
+        let mut held = [0_u32; SECTORS as usize];
+        for turn in 0..TURNS {
+            let angle = f64::from(turn) / f64::from(TURNS) * std::f64::consts::TAU;
+            for ring in 0..RINGS {
+                let share = (f64::from(ring) + 0.5) / f64::from(RINGS);
+                let radius = disc.radius * (rings[0] + (rings[1] - rings[0]) * share);
+                let bits = self.sectors_at([disc.x + radius * angle.cos(), disc.y + radius * angle.sin()]);
+                for (sector, held) in held.iter_mut().enumerate() {
+                    *held += u32::from(bits >> sector & 1);
+                }
             }
         }
-        f64::from(held) / f64::from(all)
+        Chances(held.map(|held| (f64::from(held) / f64::from(TURNS * RINGS)).clamp(limits.0, limits.1)))
+    }
+
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]
+    fn sectors_at(&self, at: [f64; 2]) -> u16 {
+        let (column, row) = self.cell_of(at[0] as f32, at[1] as f32);
+        let inside = |i: i64| (0..self.columns as i64).contains(&i);
+        if inside(column) && inside(row) { self.sectors[row as usize * self.columns + column as usize] } else { 0 }
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "cells")]

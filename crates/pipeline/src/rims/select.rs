@@ -17,8 +17,10 @@ const RAISED: f64 = 0.2;
 const STANDS_IN: f64 = 0.85;
 /// An outer edge is about as likely as the inner one, this share of it at least ...
 const AS_LIKELY: f64 = 0.7;
+/// ... a rim as what it holds, hidden by hands, this share ...
+const AS_LIKELY_OVER: f64 = 0.4;
 /// ... its edges cover as much of it, this share at least ...
-const AS_COVERED: f64 = 0.6;
+const AS_COVERED: f64 = 0.65;
 /// ... and are as strong, this share at least: a shadow's are soft ...
 const AS_STRONG: f64 = 0.55;
 /// ... and no larger than this multiple for the thickness of a rim, and this one for a rim around a well or floor.
@@ -33,8 +35,9 @@ const OFF_AXIS: f64 = 0.12;
 /// Feet and floors are wider than this share of the rim, shadows narrower than this multiple (seen on Z = 0).
 const INNERMOST: f64 = 0.35;
 const OUTERMOST: f64 = 1.25;
-/// A rim reaches further from the wearer than what is below it, by this share of its radius ...
-const FURTHER: f64 = 0.02;
+/// Nothing of a container is seen beyond its rim, which reaches further from the wearer by this share of its radius (thickness
+/// and prints of the rim itself are looked at later) ...
+const FURTHER: f64 = 0.05;
 /// ... and is as well seen there, this share at least.
 const AS_FAR: f64 = 0.6;
 /// Of a rim before another one at least this share of the far half is seen.
@@ -64,9 +67,11 @@ fn rim_of<'a>(s: &'a Scored, all: &'a [Scored], camera_mm: f64) -> &'a Scored {
     let mut rim = s;
     for _ in 0..STEPS_OUT {
         let is_further = |o: &&Scored| {
-            o.confidence >= AS_LIKELY * s.confidence
+            let is_rim = (o.confidence >= AS_LIKELY * s.confidence && is_around(&o.arc, &rim.arc))
+                || (o.confidence >= AS_LIKELY_OVER * s.confidence && is_over(o, rim, camera_mm));
+            is_rim
                 && o.arc.coverage >= AS_COVERED * rim.arc.coverage
-                && (is_around(&o.arc, &rim.arc) || is_over(o, rim, camera_mm))
+                && far_edge(&o.arc) - far_edge(&rim.arc) > FURTHER * o.arc.disc.radius
                 && !is_shadow(&o.arc, &rim.arc)
         };
         match all.iter().filter(is_further).max_by(|a, b| far_edge(&a.arc).total_cmp(&far_edge(&b.arc))) {
@@ -83,7 +88,7 @@ fn far_edge(arc: &Arc) -> f64 {
 }
 
 /// Whether one circle can be the rim of what the other one is the foot, floor, food or shadow of: about the same upright
-/// axis, which runs to the point under the camera, and higher up. Nothing of a container is seen beyond its rim.
+/// axis, which runs to the point under the camera, and higher up.
 fn is_over(upper: &Scored, lower: &Scored, camera_mm: f64) -> bool {
     let (u, l) = (&upper.arc.disc, &lower.arc.disc);
     let away = u.x.hypot(u.y);
@@ -98,7 +103,6 @@ fn is_over(upper: &Scored, lower: &Scored, camera_mm: f64) -> bool {
         && along > 0.0
         && along <= away * (1.0 - 1.0 / highest)
         && (INNERMOST..OUTERMOST).contains(&ratio)
-        && far_edge(&upper.arc) - far_edge(&lower.arc) > FURTHER * u.radius
         && upper.evidence.far >= AS_FAR * lower.evidence.far
 }
 
@@ -122,7 +126,9 @@ fn is_around(outer: &Arc, inner: &Arc) -> bool {
 /// Whether two circles can be the rims of two containers.
 fn are_two(a: &Scored, b: &Scored, camera_mm: f64) -> bool {
     // What stands before another container hides part of it, and shows all of its own rim: its foot and its shadow do not.
-    let is_below = |upper: &Scored, lower: &Scored| lower.evidence.far < SHOWN && is_over(upper, lower, camera_mm);
+    let is_below = |upper: &Scored, lower: &Scored| {
+        lower.evidence.far < SHOWN && far_edge(&upper.arc) > far_edge(&lower.arc) && is_over(upper, lower, camera_mm)
+    };
     if is_below(a, b) || is_below(b, a) {
         return false;
     }

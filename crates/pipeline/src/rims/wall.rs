@@ -2,7 +2,7 @@
 
 use super::arcs::Arc;
 use super::height::says;
-use super::raster::Raster;
+use super::raster::{Chances, Raster};
 
 /// Levels between rim and foot.
 const LEVELS: usize = 8;
@@ -46,7 +46,7 @@ impl Outline<'_> {
     }
 
     /// What its edges say: logarithm of how much likelier they are with this wall than without. `scale`: mm per scaled pixel.
-    pub(super) fn seen(&self, raster: &Raster, chance: f64, scale: f64) -> f64 {
+    pub(super) fn seen(&self, raster: &Raster, chances: &Chances, scale: f64) -> f64 {
         let rim = &self.rim.disc;
         let levels = self.levels();
         let heading = (-rim.y).atan2(-rim.x);
@@ -56,7 +56,8 @@ impl Outline<'_> {
             // On the rim itself, edges are the rim's.
             if along.hypot(across) - rim.radius > CLEAR_PX * scale {
                 let at = [0, 1].map(|i| [rim.x, rim.y][i] + along * toward[i] + across * aside[i]);
-                sum += says(raster.has_edge(at, heading + angle), shows, chance);
+                let normal = heading + angle;
+                sum += says(raster.has_edge(at, normal), shows, chances.of(normal));
             }
         };
         let turn = (self.step / rim.radius).min(std::f64::consts::FRAC_PI_2 / DIRECTIONS);
