@@ -262,7 +262,12 @@ fn reliability(rims: &[Judged]) -> String {
         let inside: Vec<&Judged> = rims.iter().filter(|rim| (band[0]..band[1]).contains(&rim.confidence)).collect();
         let right = inside.iter().filter(|rim| rim.is_right).count();
         let expected: f64 = inside.iter().map(|rim| rim.confidence).sum();
-        format!("  {:.2} to {:.2}: {right} of {} right, {expected:.1} expected\n", band[0], band[1].min(1.0), inside.len())
+        format!(
+            "  {:.2} to {:.2}: {right} of {} right, {expected:.1} expected\n",
+            band[0],
+            band[1].min(1.0),
+            inside.len()
+        )
     });
     std::iter::once("confidence\n".to_owned()).chain(rows).collect()
 }

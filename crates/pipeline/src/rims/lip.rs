@@ -73,7 +73,10 @@ fn edges(picture: &Picture, view: &View, arc: &Arc, angle: f64, px_mm: f64) -> V
     let step_mm = STEP_PX * px_mm;
     let inward = (INWARD * arc.disc.radius / step_mm) as usize + HALF + 1;
     let outward = (furthest_mm(arc.disc.radius) / step_mm + TABLE_PX.1 / STEP_PX) as usize + HALF + 1;
-    let radius = { let [x, y] = arc.at(angle); (x - arc.disc.x).hypot(y - arc.disc.y) };
+    let radius = {
+        let [x, y] = arc.at(angle);
+        (x - arc.disc.x).hypot(y - arc.disc.y)
+    };
     let off = |i: usize| (i as f64 - inward as f64) * step_mm;
     // The mean of five places along the rim, a pixel and a half apart, or less on a small one.
     let apart_mm = (1.5 * px_mm).min(0.015 * radius);

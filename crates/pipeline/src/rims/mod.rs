@@ -128,7 +128,7 @@ fn in_full(picture: &Picture, view: &View, buckets: &Buckets, found: &Scored, fa
         return None;
     }
     let Heights { plate, bowl, is_plate } = height::of_rim(buckets, &arc, view.pose().camera_height_mm());
-    let evidence = Evidence { sharp, ..found.evidence };
+    let evidence = Evidence { sharp, ..found.best };
     Some(Rim {
         confidence: evidence.confidence(),
         evidence,

@@ -35,7 +35,7 @@ pub(super) fn rims(view: &View, buckets: &Buckets) -> Vec<Scored> {
     let camera_mm = view.pose().camera_height_mm();
     let score = |arc: Arc| {
         let evidence = Evidence::of(view, &arc);
-        Scored { confidence: evidence.rank(), evidence, arc }
+        Scored { confidence: evidence.rank(), evidence, best: evidence, arc }
     };
     let likely = likely_discs(buckets.edges(), RADII_MM);
     let fitted = |discs: &[&Disc]| -> Vec<Scored> {

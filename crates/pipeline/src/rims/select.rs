@@ -8,6 +8,8 @@ use super::significance::Evidence;
 pub(super) struct Scored {
     pub arc: Arc,
     pub evidence: Evidence,
+    /// What speaks for the likeliest edge of the same container, which may be another one: that says how sure it is.
+    pub best: Evidence,
     pub confidence: f64,
 }
 
@@ -56,7 +58,7 @@ pub(super) fn one_per_container(mut all: Vec<Scored>, camera_mm: f64, least_conf
         let rim = rim_of(s, &all, camera_mm);
         if kept.iter().all(|k| are_two(k, rim, camera_mm)) {
             // The likeliest edge says how sure it is that there is a container.
-            kept.push(Scored { confidence: s.confidence, ..rim.clone() });
+            kept.push(Scored { confidence: s.confidence, best: s.best, ..rim.clone() });
         }
     }
     kept

@@ -41,7 +41,10 @@ impl Outline<'_> {
             let share = level as f64 / (LEVELS - 1) as f64;
             let reach = (1.0 - self.round) * share + self.round * (1.0 - (1.0 - share).powi(2)).sqrt();
             let t = (self.camera_mm - self.height_mm) / (self.camera_mm - share * self.height_mm);
-            Level { moved: away * (1.0 - t), radius: (self.foot + (1.0 - self.foot) * reach) * self.rim.disc.radius * t }
+            Level {
+                moved: away * (1.0 - t),
+                radius: (self.foot + (1.0 - self.foot) * reach) * self.rim.disc.radius * t,
+            }
         })
     }
 
