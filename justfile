@@ -32,7 +32,7 @@ fmt:
 bench-speed *parts:
     cargo bench -p aim-batch-pipeline -- {{parts}}
 
-# Looks for defects in a parser: packets, csv, cwa, labelme, config_toml, image, mcap, timeline (cargo install cargo-fuzz)
+# Looks for defects in a parser: packets, csv, cwa, exchange, labelme, config_toml, image, mcap, timeline (cargo install cargo-fuzz)
 fuzz target seconds="600":
     mkdir -p fuzz/found/{{target}}
     cargo fuzz run --sanitizer none {{target}} fuzz/found/{{target}} fuzz/corpus/{{target}} -- -max_total_time={{seconds}} -max_len=16384 -timeout=10 -rss_limit_mb=2048

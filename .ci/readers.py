@@ -1,6 +1,6 @@
 """Opens what aim-batch wrote with other programs' libraries, and compares it with the cards and with docs/results.md.
 
-Usage: readers.py STUDY MCAP_DIR RESULTS.parquet DICTIONARY.md
+Usage: readers.py STUDY MCAP_DIR RESULTS.parquet DICTIONARY.md TRUTH.parquet SIMULATE.md
 
 The cards are decoded here anew, from the published packet facts (aim2-packets: int16, channel-major, 1022 samples, f64
 stamp of the first sample in UTC seconds, -1 for 'no sample'), so that writer and reader cannot share a mistake.
@@ -175,7 +175,7 @@ DUCKDB_TYPES = {
     "timestamp[ns, UTC]": {"TIMESTAMP WITH TIME ZONE", "TIMESTAMP_NS", "TIMESTAMPTZ_NS", "TIMESTAMP_NS WITH TIME ZONE"},
 }
 UNITS = ("_mm", "_deg", "_pct", "_mg")
-RATIOS = ("wall_slope", "weight", "chi_squared", "confidence")  # numbers without a unit
+RATIOS = ("wall_slope", "weight", "chi_squared", "confidence", "rim_in_picture", "rim_seen")  # numbers without a unit
 
 
 def dictionary(path, file):
@@ -206,11 +206,11 @@ def check_parquet(path, columns, rows):
         check(expected in (None, str(frame[name].dtype)), at, f"pandas reads {frame[name].dtype}, expected {expected}")
         check(may_be_empty or table[name].null_count == 0, at, f"{table[name].null_count} empty cells, expected none")
         check(kind != "float64" or name.endswith(UNITS) or name in RATIOS, at, "a number without its unit in the name")
-    check_run_metadata(place, path, table.schema.metadata or {})
     return table
 
 
-def check_run_metadata(place, path, metadata):
+def check_run_metadata(path, table):
+    place, metadata = path.name, table.schema.metadata or {}
     run = metadata.get(b"aim_batch.run")
     check(run is not None, place, "no key-value metadata aim_batch.run")
     if run is None:
@@ -222,7 +222,14 @@ def check_run_metadata(place, path, metadata):
     check(in_duckdb.fetchall() == [(run.decode(),)], place, "DuckDB reads other metadata than pyarrow")
 
 
-def main(study, mcap_dir, results, dictionary_md):
+def check_truth(path, columns):
+    table = check_parquet(path, columns, None)
+    made_from = json.loads((table.schema.metadata or {}).get(b"aim_batch.simulate", b"{}"))
+    check({"program", "seed"} <= made_from.keys(), path.name, f"aim_batch.simulate is {made_from}")
+    return table
+
+
+def main(study, mcap_dir, results, dictionary_md, truth, simulate_md):
     sessions = sorted(path.name for path in (study / "cards").iterdir() if path.is_dir())
     files = sorted(mcap_dir.glob("*.mcap"))
     check([path.stem for path in files] == sessions, mcap_dir.name, f"{[p.stem for p in files]}, expected {sessions}")
@@ -233,9 +240,13 @@ def main(study, mcap_dir, results, dictionary_md):
     images = len(list(study.glob("cards/*/IMAGES/*.JPG")))
     sizes = check_parquet(results, dictionary(dictionary_md, "results.parquet"), None)
     frames = check_parquet(results.with_name("frames.parquet"), dictionary(dictionary_md, "frames.parquet"), images)
+    check_run_metadata(results, sizes)
+    check_run_metadata(results.with_name("frames.parquet"), frames)
+    truths = check_truth(truth, dictionary(simulate_md, "truth.parquet"))
     for problem in problems:
         print(f"readers: {problem}", file=sys.stderr)
     print(f"readers: {len(files)} MCAP files; {totals}; {sizes.num_rows} sizes, {frames.num_rows} frames;", end=" ")
+    print(f"{truths.num_rows} rows of truth;", end=" ")
     print(f"{len(problems)} problems")
     return 1 if problems else 0
 

@@ -22,6 +22,13 @@ fn ci_runs_the_readme_s_commands() {
     assert!(readers.contains("study=data-samples/published-bench") && readers.contains("-- run \"$study\" --out"));
 }
 
+/// The columns of truth.parquet, made from the schema.
+#[test]
+fn the_simulate_document_has_the_columns_of_the_truth() {
+    let expected = model::results::truth_markdown();
+    assert!(text("docs/simulate.md").contains(&expected), "copy into docs/simulate.md:\n{expected}");
+}
+
 /// Links to files of the repository, in every document of the front door.
 #[test]
 fn links_lead_somewhere() {
@@ -36,7 +43,9 @@ fn links_lead_somewhere() {
         "docs/calibration.md",
         "docs/devices.md",
         "docs/inspect.md",
+        "docs/marks.md",
         "docs/rims.md",
+        "docs/simulate.md",
     ] {
         let folder = root().join(document).parent().unwrap().to_owned();
         for link in text(document).split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link) {

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::str::FromStr;
 
 use model::{Level, Method, ResultRow, SessionStatus, Severity};
 
@@ -52,13 +51,6 @@ impl Large {
     }
 }
 
-fn number<T: FromStr>(row: &BTreeMap<String, String>, column: &str) -> T
-where
-    T::Err: std::fmt::Debug,
-{
-    row[column].parse().unwrap()
-}
-
 #[test]
 fn damaged_sessions_are_told_and_the_others_are_measured() {
     let study = Large::run(&["--sessions", "12", "--images", "6", "--damage", "33"]);
@@ -82,18 +74,17 @@ fn poses_agree_with_truth() {
     assert_eq!(study.exit, 0, "nothing is damaged");
     assert!(!study.folder.path().join("study/damaged.csv").exists());
     let frames = report::read_frames(&study.folder.path().join("frames.parquet")).unwrap();
-    let truth = study.table("truth.csv");
+    let (truth, made_from) = report::read_truth(&study.folder.path().join("study/truth.parquet")).unwrap();
+    assert!(made_from.contains(r#""preset":"large""#) && made_from.contains(r#""seed":1"#), "{made_from}");
     assert_eq!((frames.len(), truth.len()), (30, 30));
     for (frame, truth) in frames.iter().zip(&truth) {
-        assert_eq!((&frame.session, &frame.image), (&truth["session"], &truth["image"]));
-        assert_eq!(frame.participant.as_ref(), Some(&truth["participant"]));
-        let within = |found: Option<f64>, column: &str, tolerance: f64| {
-            (found.unwrap() - number::<f64>(truth, column)).abs() < tolerance
-        };
-        assert!(within(frame.pitch_deg, "pitch_deg", 0.02), "{frame:?} {truth:?}");
-        assert!(within(frame.roll_deg, "roll_deg", 0.04), "{frame:?} {truth:?}");
-        assert!(within(frame.range_mm, "range_mm", 0.01), "{frame:?} {truth:?}");
-        assert_eq!(frame.raters == 1, number::<bool>(truth, "marked"));
+        assert_eq!((&frame.session, &frame.image), (&truth.session, &truth.image));
+        assert_eq!((&frame.participant, frame.time_utc), (&truth.participant, Some(truth.time_utc)));
+        let within = |found: Option<f64>, truth: f64, tolerance: f64| (found.unwrap() - truth).abs() < tolerance;
+        assert!(within(frame.pitch_deg, truth.pitch_deg, 0.02), "{frame:?} {truth:?}");
+        assert!(within(frame.roll_deg, truth.roll_deg, 0.04), "{frame:?} {truth:?}");
+        assert!(within(frame.range_mm, truth.range_mm, 0.01), "{frame:?} {truth:?}");
+        assert_eq!(frame.raters == 1, truth.marked);
     }
 }
 

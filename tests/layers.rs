@@ -15,7 +15,7 @@ const LAYERS: [(&str, &[&str]); 6] = [
 ];
 
 /// Crates with few homes, and why.
-const HOMES: [(&[&str], &[&str], &str); 7] = [
+const HOMES: [(&[&str], &[&str], &str); 8] = [
     (&["mcap", "foxglove", "prost"], &["ingest"], "only ingest knows what a recording looks like inside"),
     (
         // simulate writes pictures, which is no decoding.
@@ -26,6 +26,7 @@ const HOMES: [(&[&str], &[&str], &str); 7] = [
     (&["zune-jpeg", "turbojpeg", "png", "kamadak-exif"], &["ingest"], "pictures are decoded by ingest alone"),
     (&["rayon"], &["pipeline", "simulate"], "work is shared out by pipeline over sessions, and by simulate's renderer"),
     (&["rusqlite", "redb"], &["pipeline"], "what is kept between runs is pipeline's alone"),
+    (&["quick-xml"], &["pipeline"], "XML is a format of marks alone, from CVAT"),
     (&["polars", "arrow", "parquet"], &["report"], "it is most of the build, and rows go through model::ResultSink"),
     (
         &["clap", "indicatif", "miette", "anyhow", "tracing-subscriber", "signal-hook"],

@@ -9,7 +9,7 @@ use crate::support::{
     Shot, StudyFolder, assert_exit, label_me, line, outline, run, small_camera, small_picture, stdout,
 };
 
-const OBJECTS: &str =
+pub const OBJECTS: &str =
     "object,kind,shape,true_diameter_mm,true_height_mm\nbowl,bowl,circle,160,60\nplate,plate,circle,200,\n";
 
 fn view(pitch_deg: f64, roll_deg: f64, range_mm: f64) -> View {
@@ -43,7 +43,7 @@ fn marks(view: &View) -> Value {
 }
 
 /// A picture of the scene from a pose, as sensors see it that are off.
-fn shot(pitch_deg: f64, roll_deg: f64, range_mm: f64, pitch_off_deg: f64, range_factor: f64) -> Shot {
+pub fn shot(pitch_deg: f64, roll_deg: f64, range_mm: f64, pitch_off_deg: f64, range_factor: f64) -> Shot {
     Shot {
         picture: small_picture(),
         extension: "jpg",

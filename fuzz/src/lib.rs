@@ -10,6 +10,7 @@ mod config_toml;
 mod csv;
 mod cursor;
 mod cwa;
+mod exchange;
 mod image;
 mod labelme;
 mod mcap;
@@ -20,6 +21,7 @@ mod timeline;
 pub use config_toml::config_toml;
 pub use csv::csv;
 pub use cwa::cwa;
+pub use exchange::exchange;
 pub use image::image;
 pub use labelme::labelme;
 pub use mcap::mcap;
@@ -30,10 +32,11 @@ pub use timeline::timeline;
 pub type Entry = fn(&[u8]) -> usize;
 
 /// All entry points by the names of their targets, which are also those of their folders in `corpus/`.
-pub const TARGETS: [(&str, Entry); 8] = [
+pub const TARGETS: [(&str, Entry); 9] = [
     ("config_toml", config_toml),
     ("csv", csv),
     ("cwa", cwa),
+    ("exchange", exchange),
     ("image", image),
     ("labelme", labelme),
     ("mcap", mcap),

@@ -1,13 +1,16 @@
 //! The command line.
 
+mod marks;
+
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Parser, Subcommand, ValueEnum};
 use model::{Kind, Method, Shape, Wall};
 use pipeline::study::MarksSource;
 
 use crate::logging::LogFormat;
+pub use marks::{MarksArgs, MarksExportArgs, MarksFormat, MarksImportArgs, MarksWay};
 
 /// Measures plates and bowls in recordings of a camera worn on eyeglasses.
 ///
@@ -46,6 +49,8 @@ pub enum Command {
     Inspect(InspectArgs),
     /// What a bench with known sizes tells of a device: calibration.toml, for run --calibration
     Calibrate(CalibrateArgs),
+    /// Marks from and to other annotation tools: CVAT, COCO
+    Marks(MarksArgs),
     /// One SD card to one MCAP file
     Ingest(IngestArgs),
     /// Tables again, from the files that run wrote
@@ -329,14 +334,15 @@ pub struct MeasureArgs {
 /// `simulate`.
 #[derive(Debug, clap::Args)]
 pub struct SimulateArgs {
-    /// What to make
-    pub preset: Preset,
+    /// What to make: published-bench, large, bench, worn, or a scene file NAME.toml (docs/simulate.md)
+    #[arg(value_name = "PRESET|SCENE.toml", value_parser = parse_made)]
+    pub made: Made,
     /// Folder of the new study; must be empty or not exist
     #[arg(short, long)]
     pub out: PathBuf,
-    /// Seed of all randomness
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
+    /// Seed of all randomness; default: 1, or the scene file's
+    #[arg(long)]
+    pub seed: Option<u64>,
     /// Everything but the pictures (published-bench)
     #[arg(long)]
     pub no_pictures: bool,
@@ -368,6 +374,28 @@ fn parse_size_px(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.parse::<u32>().ok();
     let size = text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
     size.ok_or_else(|| "expected width and height in pixels, such as 320x240".to_owned())
+}
+
+/// What `simulate` makes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Made {
+    /// A study of the program's own.
+    Preset(Preset),
+    /// What a scene file says.
+    Scene(PathBuf),
+}
+
+/// `worn`, `kitchen.toml`.
+fn parse_made(text: &str) -> Result<Made, String> {
+    if Path::new(text).extension().is_some_and(|extension| extension == "toml") {
+        return Ok(Made::Scene(PathBuf::from(text)));
+    }
+    Preset::from_str(text, false).map(Made::Preset).map_err(|_| {
+        let names = Preset::value_variants()
+            .iter()
+            .filter_map(|preset| Some(preset.to_possible_value()?.get_name().to_owned()));
+        format!("expected one of {}, or a scene file that ends in .toml", names.collect::<Vec<_>>().join(", "))
+    })
 }
 
 /// Studies that can be made.

@@ -27,6 +27,7 @@ fn main() -> ExitCode {
         Command::Status(status) => commands::status::run(status),
         Command::Check(check) => commands::check::run(check, &bars),
         Command::Inspect(inspect) => commands::inspect::run(inspect, &bars),
+        Command::Marks(marks) => commands::marks::run(&marks.way),
         Command::Ingest(ingest) => commands::ingest::run(ingest, &bars),
         Command::Report(report) => commands::report::run(report),
         Command::Project(project) => commands::project::run(project),

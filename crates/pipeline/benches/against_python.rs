@@ -1,8 +1,7 @@
 //! Packets and CSV, parsed here and by numpy and pandas.
 
-use std::io::{BufRead, BufReader, Write};
+use std::io::Write;
 use std::path::Path;
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use ingest::parse::{Converter, CsvLayout, CsvSamples, PacketParser, PacketSamples, RawBlock};
 use ingest::profile::{CsvFormat, Epoch, RowTime, Step, TimeUnit};
@@ -10,6 +9,7 @@ use ingest::timeline::{Clock, Line, Stepper};
 use ingest::{Profile, profile};
 use jiff::tz::TimeZone;
 
+use crate::python::Python;
 use crate::{card, turns};
 
 const PACKET_SECONDS: i64 = 8 * 3600;
@@ -29,7 +29,7 @@ pub fn packets() {
         let mut packets = PacketSamples::new(std::fs::File::open(&file).unwrap(), parser);
         assert_eq!(on_a_time_line(|| packets.next_block()), expected as u64);
     };
-    let Some(mut python) = Python::start() else { return };
+    let Some(mut python) = Python::start("peers.py", "numpy and pandas") else { return };
     for (name, how) in [("numpy, all packets at once", "packets_at_once"), ("numpy, packet by packet", "packets_each")]
     {
         let mut peer = || assert_eq!(python.ask(how, &file), expected);
@@ -59,7 +59,7 @@ pub fn csv() {
         let mut csv = CsvSamples::new(std::fs::File::open(&file).unwrap(), layout.clone());
         assert_eq!(on_a_time_line(|| csv.next_block()), expected as u64);
     };
-    let Some(mut python) = Python::start() else { return };
+    let Some(mut python) = Python::start("peers.py", "numpy and pandas") else { return };
     for (name, how) in [("pandas.read_csv", "csv_pandas"), ("numpy.loadtxt", "csv_numpy")] {
         let mut peer = || assert_eq!(python.ask(how, &file), expected);
         let title = format!("{expected} acceleration samples in CSV, seconds (least, median, most)");
@@ -92,47 +92,5 @@ fn write_csv(file: &Path) {
         let (seconds, micros) = (card::START_S + ns / 1_000_000_000, ns % 1_000_000_000 / 1000);
         let noise = (i * 7919 % 9) as f64 / 1000.0;
         writeln!(out, "{seconds}.{micros:06},{:.6},{:.6},{:.6}", noise, -0.829_038 + noise, -0.559_193).unwrap();
-    }
-}
-
-/// A Python that stays, so that its start is not timed.
-struct Python {
-    child: Child,
-    questions: ChildStdin,
-    answers: BufReader<ChildStdout>,
-}
-
-impl Python {
-    /// None, with a word about it, where numpy and pandas are not to be had.
-    fn start() -> Option<Self> {
-        let program = std::env::var_os("AIM_BATCH_PYTHON").unwrap_or_else(|| "python3".into());
-        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/peers.py");
-        let started = Command::new(&program).arg(script).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
-        let mut child = started.ok()?;
-        let questions = child.stdin.take()?;
-        let mut python = Self { answers: BufReader::new(child.stdout.take()?), child, questions };
-        if python.line().trim() != "ready" {
-            println!("skipped: {} has no numpy and pandas (AIM_BATCH_PYTHON names another)", program.display());
-            return None;
-        }
-        Some(python)
-    }
-
-    /// Lets the script parse a file; the number of samples.
-    fn ask(&mut self, how: &str, file: &Path) -> i64 {
-        writeln!(self.questions, "{how} {}", file.display()).unwrap();
-        self.line().trim().parse().unwrap()
-    }
-
-    fn line(&mut self) -> String {
-        let mut line = String::new();
-        self.answers.read_line(&mut line).unwrap();
-        line
-    }
-}
-
-impl Drop for Python {
-    fn drop(&mut self) {
-        drop(self.child.kill().and_then(|()| self.child.wait()));
     }
 }

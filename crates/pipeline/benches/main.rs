@@ -1,6 +1,6 @@
 //! Ingest, signals and runs against their peers, each a ratio of two programs that take turns in one run.
 //!
-//! `cargo bench -p aim-batch-pipeline`, or some of it: `-- copy packets csv week memory jobs`. docs/performance.md says what is
+//! `cargo bench -p aim-batch-pipeline`, or some of it: `-- copy packets csv week memory jobs rims`. docs/performance.md says what is
 //! compared with what, and what was measured.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark fails by panicking, and prints")]
@@ -10,6 +10,8 @@ mod against_python;
 mod card;
 mod jobs;
 mod memory;
+mod python;
+mod rims;
 mod turns;
 mod week;
 
@@ -19,13 +21,14 @@ fn main() {
         return memory::child(&arguments[1..]);
     }
     let is_wanted = |name: &str| arguments.is_empty() || arguments.iter().any(|argument| argument == name);
-    let parts: [(&str, fn()); 6] = [
+    let parts: [(&str, fn()); 7] = [
         ("copy", against_cp::run),
         ("packets", against_python::packets),
         ("csv", against_python::csv),
         ("week", week::run),
         ("memory", memory::run),
         ("jobs", jobs::run_jobs),
+        ("rims", rims::run),
     ];
     for (_, run) in parts.iter().filter(|(name, _)| is_wanted(name)) {
         run();

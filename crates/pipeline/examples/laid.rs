@@ -10,6 +10,7 @@
 
 use std::error::Error;
 use std::io::Write as _;
+use std::sync::Arc;
 
 use ingest::Picture;
 use model::{Container, InputSigma, Kind, Method, Quantity, Shape, View};
@@ -30,7 +31,7 @@ const WINDOW_DEG: (f64, f64) = (47.5, 62.5);
 
 /// One round container of a picture, and what was found of it.
 struct Case {
-    object: &'static str,
+    object: Arc<str>,
     kind: Kind,
     pitch_deg: f64,
     in_view: bool,
@@ -122,7 +123,7 @@ fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
         let sure = rims.iter().filter(|rim| rim.confidence >= LEAST_CONFIDENCE && is_of(rim, truth, view));
         let best = sure.max_by(|a, b| a.confidence.total_cmp(&b.confidence));
         Case {
-            object: truth.object,
+            object: truth.object.clone(),
             kind: truth.kind,
             pitch_deg: frame.head.pitch_deg,
             in_view: truth.rim_seen >= IN_VIEW,
@@ -205,11 +206,11 @@ fn summary(name: &str, reports: &[Report]) -> String {
         let kept: Vec<&&Case> = cases.iter().filter(|case| keep(case)).collect();
         text += &line(label, &kept);
     }
-    let mut objects: Vec<&str> = cases.iter().map(|case| case.object).collect();
+    let mut objects: Vec<&str> = cases.iter().map(|case| &*case.object).collect();
     objects.sort_unstable();
     objects.dedup();
     for object in objects {
-        text += &line(object, &cases.iter().filter(|case| case.object == object).collect::<Vec<_>>());
+        text += &line(object, &cases.iter().filter(|case| *case.object == *object).collect::<Vec<_>>());
     }
     let is_false = |rim: &Judged| rim.confidence >= LEAST_CONFIDENCE && !rim.is_right && !rim.is_cup;
     let false_in = |report: &&Report| report.rims.iter().any(is_false);

@@ -10,7 +10,7 @@ use nalgebra::Point2;
 use serde::Deserialize;
 
 use crate::rims::Found;
-pub(crate) use write::{AutoRim, text_of};
+pub(crate) use write::{AutoRim, Shape as OutShape, text_of, text_of_shapes};
 
 mod write;
 

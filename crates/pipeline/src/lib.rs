@@ -13,6 +13,7 @@
 
 pub mod calibrate;
 mod check;
+pub mod exchange;
 #[cfg(debug_assertions)]
 mod fault;
 mod inputs;

@@ -91,7 +91,8 @@ impl Writer<'_> {
             };
             let rims = auto.get(image).map(Vec::as_slice).unwrap_or_default();
             let picture_px = self.prepared.marks_camera.1.size_px();
-            let text = text_of(rims, &self.picture(image), picture_px).map_err(io::Error::from);
+            let text = text_of(rims, &picture_for(&self.folder, self.dir, self.prepared, image), picture_px)
+                .map_err(io::Error::from);
             let path = self.folder.join(format!("{stem}.json"));
             let done =
                 text.and_then(|text| write_unless_other(&path, &text)).map_err(|source| failed(&path, source))?;
@@ -99,15 +100,15 @@ impl Writer<'_> {
         }
         Ok(())
     }
+}
 
-    /// Where LabelMe finds the picture, from the folder of the marks: on the card; beside the marks where people mark other
-    /// pictures than those of the card.
-    fn picture(&self, image: &str) -> String {
-        let beside = || image.rsplit('/').next().unwrap_or(image).to_owned();
-        let is_recorded = self.prepared.camera == self.prepared.marks_camera.1;
-        let picture = self.dir.card.as_ref().filter(|_| is_recorded).map(|card| card.join(image));
-        picture.and_then(|picture| relative_path(&self.folder, &picture)).unwrap_or_else(beside)
-    }
+/// Where LabelMe finds the picture, from the folder of the marks: on the card; beside the marks where people mark other
+/// pictures than those of the card.
+pub(crate) fn picture_for(folder: &Path, dir: &SessionDir, prepared: &Prepared, image: &str) -> String {
+    let beside = || image.rsplit('/').next().unwrap_or(image).to_owned();
+    let is_recorded = prepared.camera == prepared.marks_camera.1;
+    let picture = dir.card.as_ref().filter(|_| is_recorded).map(|card| card.join(image));
+    picture.and_then(|picture| relative_path(folder, &picture)).unwrap_or_else(beside)
 }
 
 fn failed(path: &Path, source: io::Error) -> WriteMarksError {
@@ -121,12 +122,17 @@ fn write_unless_other(path: &Path, text: &str) -> io::Result<bool> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {}
         Err(error) => return Err(error),
     }
+    write_whole(path, text)?;
+    Ok(true)
+}
+
+/// Writes aside and renames.
+pub(crate) fn write_whole(path: &Path, text: &str) -> io::Result<()> {
     let partial = path.with_extension("json.partial"); // half a file would be taken for marks
     let mut file = std::fs::File::create(&partial)?;
     file.write_all(text.as_bytes())?;
     file.sync_all()?;
-    std::fs::rename(&partial, path)?;
-    Ok(true)
+    std::fs::rename(&partial, path)
 }
 
 /// The way from a folder to a file, with `/`; none where there is none (another drive), or the file is not there.

@@ -37,6 +37,14 @@ pub enum WriteError {
         /// The id.
         id: String,
     },
+    /// A figure of an earlier run is in the way.
+    #[error("this run has no data for a figure that an earlier one wrote, and its file cannot be removed; remove it: {}", path.display())]
+    OldFigure {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
     /// A file could not be written.
     #[error(transparent)]
     File(#[from] FileError),

@@ -69,6 +69,18 @@ pub enum SimulateError {
         /// Why.
         source: CameraSpecError,
     },
+    /// Parts of a scene file do not go together.
+    #[error("{fact}")]
+    Scene {
+        /// Expected and got.
+        fact: String,
+    },
+    /// The camera of a scene is none.
+    #[error("the scene's camera: {0}")]
+    SceneCamera(#[source] CameraSpecError),
+    /// A camera cannot be written as TOML.
+    #[error("the scene's camera cannot be written as TOML: {0}")]
+    CameraText(#[source] toml::ser::Error),
     /// The camera cannot be posed so.
     #[error("{place}: {source}")]
     Pose {

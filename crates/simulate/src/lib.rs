@@ -32,4 +32,5 @@ pub mod world;
 
 pub use error::SimulateError;
 pub use large::{LargeOptions, large};
-pub use published::{Options, Summary, published_bench};
+pub use published::{Options, published_bench};
+pub use study::{Simulated, Summary};

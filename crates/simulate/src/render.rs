@@ -9,7 +9,7 @@ use crate::error::SimulateError;
 use crate::scene::{Colour, Part, Ray, Scene};
 
 /// Quality of the JPEG pictures, of 100.
-const JPEG_QUALITY: u8 = 75;
+pub(crate) const JPEG_QUALITY: u8 = 75;
 
 /// Sub-pixels along each side of a pixel that shows an edge.
 const EDGE_SUBPIXELS: u32 = 3;
@@ -122,11 +122,19 @@ fn to_byte(level: f32) -> u8 {
 }
 
 impl Picture {
-    /// The picture as JPEG with 4:2:0 chroma. `place` names it in errors.
+    /// The picture as JPEG of quality 75 with 4:2:0 chroma. `place` names it in errors.
     ///
     /// # Errors
     /// [`SimulateError::TooLarge`] and [`SimulateError::Jpeg`].
     pub fn to_jpeg(&self, place: &str) -> Result<Vec<u8>, SimulateError> {
+        self.to_jpeg_of_quality(place, JPEG_QUALITY)
+    }
+
+    /// The same of a quality from 1 to 100.
+    ///
+    /// # Errors
+    /// [`SimulateError::TooLarge`] and [`SimulateError::Jpeg`].
+    pub fn to_jpeg_of_quality(&self, place: &str, quality: u8) -> Result<Vec<u8>, SimulateError> {
         let (Ok(width), Ok(height)) = (u16::try_from(self.width_px), u16::try_from(self.height_px)) else {
             let (width_px, height_px) = (self.width_px, self.height_px);
             return Err(SimulateError::TooLarge { place: place.to_owned(), width_px, height_px });
@@ -134,7 +142,7 @@ impl Picture {
         let mut bytes = Vec::new();
         // Baseline with the standard Huffman tables and one scan, as cameras write it. With optimised tables this encoder
         // writes a scan per channel, which zune-jpeg 0.5.15 decodes wrongly when the chroma is subsampled.
-        let mut encoder = Encoder::new(&mut bytes, JPEG_QUALITY);
+        let mut encoder = Encoder::new(&mut bytes, quality);
         encoder.set_sampling_factor(SamplingFactor::F_2_2);
         encoder
             .encode(&self.rgb, width, height, ColorType::Rgb)

@@ -4,6 +4,7 @@ pub mod calibrate;
 pub mod check;
 pub mod ingest;
 pub mod inspect;
+pub mod marks;
 pub mod measure;
 mod place;
 mod problems;
@@ -44,7 +45,7 @@ fn tell(text: &str) {
 }
 
 /// The tables of a run, as wide as the terminal, if stdout is one: those that the study asks for, or the sizes if it asks for none,
-/// then the errors by pitch and height, and what became of the images.
+/// then the errors by pitch and height, and what became of the images, with the flow once more as bars.
 fn tables_text(results: &::report::Results) -> String {
     let mut tables = ::report::tables(results);
     if tables.is_empty() {
@@ -53,7 +54,8 @@ fn tables_text(results: &::report::Results) -> String {
     let by_band = [::report::error_by_pitch(results), ::report::error_by_height(results)];
     tables.extend(by_band.into_iter().filter(|table| !table.rows.is_empty()));
     tables.extend(flow_tables(results));
-    as_wide_as_the_terminal(&tables)
+    let bars = ::report::flow_bars(results, terminal_width()).map(|bars| format!("\n{bars}"));
+    as_wide_as_the_terminal(&tables) + &bars.unwrap_or_default()
 }
 
 /// What became of the images.
@@ -62,8 +64,12 @@ fn flow_tables(results: &::report::Results) -> impl Iterator<Item = ::report::Ta
 }
 
 fn as_wide_as_the_terminal(tables: &[::report::Table]) -> String {
-    let width = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
-    ::report::terminal_set(tables, width)
+    ::report::terminal_set(tables, terminal_width())
+}
+
+/// Columns of stdout, if it is a terminal.
+fn terminal_width() -> Option<usize> {
+    terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0))
 }
 
 /// A wish to stop that signals set, from now on.

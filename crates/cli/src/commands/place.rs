@@ -27,12 +27,8 @@ pub fn check_name(out: &Path) -> Result<(), Failure> {
 /// What is written among the cards would be taken for a session, or for a file of a card, by the next run.
 pub fn check_apart(place: &PlaceArgs, study: &Study) -> Result<(), Failure> {
     for (option, path) in [("--out", &place.out), ("--work", &place.work_dir())] {
-        let whole = whole(path);
         for part in ["cards", "marks"] {
-            if study.dir.join(part).canonicalize().is_ok_and(|part| whole.starts_with(part)) {
-                let path = path.display();
-                return Err(Failure::Usage(anyhow!("{option} {path}: expected a place outside the study's {part}/")));
-            }
+            check_outside(option, path, study, part)?;
         }
     }
     Ok(())
@@ -44,12 +40,19 @@ pub fn check_marks(folder: &Path, study: &Study) -> Result<(), Failure> {
     if !study.spec.marks.source.searches() {
         return refuse("nothing is looked for in pictures: give --marks auto or --marks both");
     }
-    let whole = whole(folder);
-    if study.dir.join("cards").canonicalize().is_ok_and(|cards| whole.starts_with(cards)) {
-        return refuse("expected a place outside the study's cards/");
-    }
+    check_outside("--write-marks", folder, study, "cards")?;
     if folder.exists() && !folder.is_dir() {
         return refuse("there is a file of this name; expected a folder");
+    }
+    Ok(())
+}
+
+/// Whether something may be written there: not in this part of the study.
+pub fn check_outside(option: &str, path: &Path, study: &Study, part: &str) -> Result<(), Failure> {
+    let whole = whole(path);
+    if study.dir.join(part).canonicalize().is_ok_and(|part| whole.starts_with(part)) {
+        let path = path.display();
+        return Err(Failure::Usage(anyhow!("{option} {path}: expected a place outside the study's {part}/")));
     }
     Ok(())
 }

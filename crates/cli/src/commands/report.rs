@@ -8,13 +8,17 @@ use super::{outcome, print, tables_text, tell};
 use crate::args::ReportArgs;
 use crate::exit::{Failure, Outcome};
 
-/// Prints the tables, and writes them when a folder is given.
+/// Prints the tables, and writes them and the figures when a folder is given.
 pub fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
     let mut results = Results::read(&args.results)?;
     let lost = read_flow(&mut results, args)?;
     print(&tables_text(&results))?;
     if let Some(dir) = &args.out {
         ::report::write_dir(&results, dir)?;
+        // Without a ledger that belongs to the results there are no figures of images.
+        let frames =
+            if results.flow.is_some() { ::report::read_frames(&frames_file(&args.results))? } else { Vec::new() };
+        ::report::write_figures(&::report::figures(&results, &frames), dir)?;
     }
     Ok(outcome(lost))
 }

@@ -42,6 +42,7 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     print(&tables_text(&results))?;
     if let Some(dir) = &args.report {
         ::report::write_dir(&results, dir)?;
+        ::report::write_figures(&::report::figures(&results, &::report::read_frames(&frames)?), dir)?;
     }
     let files = [out.clone(), frames, ::report::run_file(out)];
     let files: Vec<PathBuf> = files.into_iter().chain(args.report.clone()).collect();

@@ -1,22 +1,41 @@
 //! `simulate`: a study with known truth.
 
-use ::simulate::laid::{self, LaidOptions, LaidPreset};
-use ::simulate::{LargeOptions, Options, SimulateError, Summary, large, published_bench};
-use anyhow::anyhow;
+use std::path::Path;
 
-use super::tell;
-use crate::args::{LargeArgs, Preset, SimulateArgs};
+use ::simulate::laid::{self, LaidOptions, LaidPreset, SceneCamera, SceneSpec};
+use ::simulate::{LargeOptions, Options, SimulateError, Simulated, large, published_bench};
+use anyhow::anyhow;
+use clap::ValueEnum as _;
+use ingest::{camera, config};
+use serde_json::json;
+
+use super::{PROGRAM, tell};
+use crate::args::{LargeArgs, Made, Preset, SimulateArgs};
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
 /// Makes the study.
 pub fn run(args: &SimulateArgs, bars: &Bars) -> Result<Outcome, Failure> {
-    let summary = match args.preset {
-        Preset::PublishedBench => make_published_bench(args, bars)?,
-        Preset::Large => make_large(args, bars)?,
-        Preset::Bench => make_bench(args, bars)?,
-        Preset::Worn => make_worn(args, bars)?,
+    let seed = args.seed.unwrap_or(1);
+    let (Simulated { summary, truth }, made_from) = match &args.made {
+        Made::Preset(preset) => {
+            let made = match preset {
+                Preset::PublishedBench => make_published_bench(args, seed, bars)?,
+                Preset::Large => make_large(args, seed, bars)?,
+                Preset::Bench => make_bench(args, seed, bars)?,
+                Preset::Worn => make_worn(args, seed, bars)?,
+            };
+            let name = preset.to_possible_value().map(|value| value.get_name().to_owned());
+            (made, json!({"program": PROGRAM, "preset": name, "seed": seed}))
+        }
+        Made::Scene(file) => {
+            let (made, seed) = make_scene(file, args, bars)?;
+            (made, json!({"program": PROGRAM, "scene": "scene.toml", "seed": seed}))
+        }
     };
+    if !truth.is_empty() {
+        ::report::write_truth(&args.out.join("truth.parquet"), truth, &made_from.to_string())?;
+    }
     tell(&format!(
         "wrote {}: {} sessions, {} images, {} files of marks\n",
         args.out.display(),
@@ -27,21 +46,23 @@ pub fn run(args: &SimulateArgs, bars: &Bars) -> Result<Outcome, Failure> {
     Ok(Outcome::Well)
 }
 
-fn make_published_bench(args: &SimulateArgs, bars: &Bars) -> Result<Summary, Failure> {
+/// Nothing is true of it but what was published.
+fn make_published_bench(args: &SimulateArgs, seed: u64, bars: &Bars) -> Result<Simulated, Failure> {
     if args.large != LargeArgs::default() {
         let fact =
             "--sessions, --images, --image-size and --damage belong to other presets: published-bench is as it is";
         return Err(Failure::Usage(anyhow!(fact)));
     }
-    let options = Options { seed: args.seed, render: !args.no_pictures };
-    Ok(published_bench(&args.out, &options, &bars.counter("pictures"))?)
+    let options = Options { seed, render: !args.no_pictures };
+    let summary = published_bench(&args.out, &options, &bars.counter("pictures"))?;
+    Ok(Simulated { summary, truth: Vec::new() })
 }
 
-fn make_large(args: &SimulateArgs, bars: &Bars) -> Result<Summary, Failure> {
+fn make_large(args: &SimulateArgs, seed: u64, bars: &Bars) -> Result<Simulated, Failure> {
     refuse_no_pictures(args)?;
     let (given, default) = (&args.large, LargeOptions::default());
     let options = LargeOptions {
-        seed: args.seed,
+        seed,
         sessions: given.sessions.unwrap_or(default.sessions),
         images: given.images.unwrap_or(default.images),
         size_px: given.image_size.unwrap_or(default.size_px),
@@ -50,30 +71,56 @@ fn make_large(args: &SimulateArgs, bars: &Bars) -> Result<Summary, Failure> {
     large(&args.out, &options, &bars.counter("sessions")).map_err(failure)
 }
 
-fn make_bench(args: &SimulateArgs, bars: &Bars) -> Result<Summary, Failure> {
+fn make_bench(args: &SimulateArgs, seed: u64, bars: &Bars) -> Result<Simulated, Failure> {
     let given = &args.large;
     if given.sessions.is_some() || given.images.is_some() || given.damage.is_some() {
         let fact =
             "--sessions, --images and --damage do not fit the preset bench: it has nine sessions of eight images";
         return Err(Failure::Usage(anyhow!(fact)));
     }
-    make_laid(args, LaidPreset::Bench, bars)
+    make_laid(args, seed, LaidPreset::Bench, bars)
 }
 
-fn make_worn(args: &SimulateArgs, bars: &Bars) -> Result<Summary, Failure> {
+fn make_worn(args: &SimulateArgs, seed: u64, bars: &Bars) -> Result<Simulated, Failure> {
     let given = &args.large;
     if given.damage.is_some() {
         return Err(Failure::Usage(anyhow!("--damage belongs to the preset large")));
     }
     let preset = LaidPreset::Worn { sessions: given.sessions.unwrap_or(4), images: given.images.unwrap_or(24) };
-    make_laid(args, preset, bars)
+    make_laid(args, seed, preset, bars)
 }
 
-fn make_laid(args: &SimulateArgs, preset: LaidPreset, bars: &Bars) -> Result<Summary, Failure> {
+fn make_laid(args: &SimulateArgs, seed: u64, preset: LaidPreset, bars: &Bars) -> Result<Simulated, Failure> {
     refuse_no_pictures(args)?;
     let size_px = args.large.image_size.unwrap_or(LaidOptions::SIZE_PX);
-    let options = LaidOptions { preset, seed: args.seed, size_px };
+    let options = LaidOptions { preset, seed, size_px };
     laid::write(&args.out, &options, &bars.counter("pictures")).map_err(failure)
+}
+
+/// The study, and the seed that it was made with.
+fn make_scene(file: &Path, args: &SimulateArgs, bars: &Bars) -> Result<(Simulated, u64), Failure> {
+    refuse_no_pictures(args)?;
+    if args.large != LargeArgs::default() {
+        let fact = "--sessions, --images, --image-size and --damage belong to presets: a scene file says them itself";
+        return Err(Failure::Usage(anyhow!(fact)));
+    }
+    let text = config::read_text(file).map_err(Failure::usage)?;
+    let scene: SceneSpec = config::parse_toml(&text, file).map_err(Failure::usage)?;
+    let camera = match scene.camera() {
+        SceneCamera::Own(spec) => spec.as_ref().clone(),
+        SceneCamera::Named(name) => {
+            let beside = file.parent().unwrap_or(Path::new(""));
+            camera::load(name, beside).map_err(Failure::usage)?
+        }
+    };
+    let seed = args.seed.unwrap_or(scene.seed());
+    match scene.write(&args.out, &camera, seed, text.as_bytes(), &bars.counter("pictures")) {
+        Ok(made) => Ok((made, seed)),
+        Err(error @ (SimulateError::Scene { .. } | SimulateError::SceneCamera(_))) => {
+            Err(Failure::Usage(anyhow!("{}: {error}", file.display())))
+        }
+        Err(other) => Err(other.into()),
+    }
 }
 
 fn refuse_no_pictures(args: &SimulateArgs) -> Result<(), Failure> {

@@ -18,7 +18,8 @@ pub(super) fn config_error(error: &Error, text: &str, path: &Path) -> ConfigErro
 }
 
 /// The known word that is most like `word`.
-pub(crate) fn nearest(word: &str, known: &[String]) -> Option<String> {
+#[must_use]
+pub fn nearest(word: &str, known: &[String]) -> Option<String> {
     let likeness = |candidate: &String| strsim::jaro_winkler(word, candidate);
     known.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b))).cloned()
 }
@@ -56,7 +57,10 @@ fn key_at(text: &str, line: usize) -> Option<String> {
     let above = || text.lines().take(line);
     let header = |l: &&str| l.trim_start().starts_with('[') && !l.contains('=');
     let table = above().filter(header).last().map(|l| l.trim().trim_matches(['[', ']']).trim().to_owned());
-    let key = above().last().and_then(|l| l.split_once('=')).map(|(key, _)| key.trim().to_owned());
+    // A line may begin with the braces of a table in a list.
+    let key =
+        above().last().and_then(|l| l.split_once('=')).map(|(key, _)| key.trim_start_matches([' ', '\t', '[', '{']));
+    let key = key.map(|key| key.trim_end().to_owned());
     match (table, key) {
         (Some(table), Some(key)) => Some(format!("{table}.{key}")),
         (table, key) => key.or(table),

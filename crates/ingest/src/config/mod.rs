@@ -4,7 +4,7 @@ mod error;
 mod locate;
 
 pub use error::ConfigError;
-pub(crate) use locate::nearest;
+pub use locate::nearest;
 
 use std::fs::File;
 use std::io::Read;
@@ -33,7 +33,11 @@ pub fn parse_toml<T: DeserializeOwned>(text: &str, path: &Path) -> Result<T, Con
     toml::from_str(text).map_err(|error| locate::config_error(&error, text, path))
 }
 
-pub(crate) fn read_text(path: &Path) -> Result<String, ConfigError> {
+/// Reads a configuration file as text.
+///
+/// # Errors
+/// [`ConfigError`] when the file cannot be read, is far too large for a configuration, or is not UTF-8.
+pub fn read_text(path: &Path) -> Result<String, ConfigError> {
     let unreadable = |source| ConfigError::Unreadable { path: path.to_owned(), source };
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(unreadable)?;

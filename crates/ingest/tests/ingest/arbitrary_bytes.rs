@@ -100,4 +100,4 @@ macro_rules! targets {
     };
 }
 
-targets!(config_toml, csv, cwa, image, labelme, mcap, packets, timeline);
+targets!(config_toml, csv, cwa, exchange, image, labelme, mcap, packets, timeline);

@@ -52,6 +52,7 @@ fn write_seeds() {
         ("config_toml", config_toml()),
         ("csv", csv()),
         ("cwa", cwa()),
+        ("exchange", exchange()),
         ("image", image()),
         ("labelme", labelme()),
         ("mcap", mcap()),
@@ -190,6 +191,34 @@ fn labelme() -> Seeds {
         named("all.json", file(&[line.clone(), height, rim, base])),
         named("refused.json", file(&[&refused[..], std::slice::from_ref(&line)].concat())),
         named("mark.json", format!("\u{feff}{{\"shapes\": [{line}]}}")),
+    ]
+}
+
+/// CVAT's XML with every shape, a small one, and COCO's JSON with polygons and keypoints.
+fn exchange() -> Seeds {
+    let skeleton = "<skeleton label=\"red bowl\"><points label=\"height_foot\" points=\"1,2\" outside=\"0\" occluded=\"1\"/>\
+                    <points label=\"height_rim\" points=\"3,4\"/></skeleton>";
+    let shapes = "<ellipse label=\"rim\" cx=\"30\" cy=\"20\" rx=\"9\" ry=\"4\" rotation=\"7\">\
+                  <attribute name=\"object\">pl&#97;te</attribute></ellipse>";
+    let xml = format!(
+        "<annotations><image name=\"S/a.jpg\" width=\"64\" height=\"48\">{shapes}{skeleton}</image></annotations>"
+    );
+    let coco = |annotations: &str| {
+        format!(
+            "{{\"images\": [{{\"id\": 1, \"file_name\": \"a.jpg\", \"width\": 64, \"height\": 48}}], \"categories\": \
+             [{{\"id\": 1, \"name\": \"plate/rim\"}}, {{\"id\": 2, \"name\": \"red bowl/width\", \"keypoints\": \
+             [\"1\", \"2\"]}}], \"annotations\": [{annotations}]}}"
+        )
+    };
+    let polygon = "{\"id\": 1, \"image_id\": 1, \"category_id\": 1, \"segmentation\": [[1, 2, 3, 4, 5, 6.5]], \"bbox\": [1, 2, 4, 4.5]}";
+    let keypoints =
+        "{\"id\": 2, \"image_id\": 1, \"category_id\": 2, \"keypoints\": [1, 2, 2, 30, 4e0, 1], \"segmentation\": []}";
+    let mask = "{\"id\": 3, \"image_id\": 1, \"category_id\": 1, \"segmentation\": {\"counts\": \"a\", \"size\": [48, 64]}, \"iscrowd\": 1}";
+    vec![
+        named("cvat-all.xml", repository_file("crates/pipeline/src/exchange/cvat/sample.xml")),
+        named("cvat.xml", xml),
+        named("coco.json", coco(&[polygon, keypoints].join(", "))),
+        named("coco-mask.json", coco(mask)),
     ]
 }
 

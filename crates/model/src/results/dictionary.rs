@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::flow::flow_markdown;
 use crate::frame_log::FrameFlag;
 
-use super::{Column, ColumnType, FRAME_COLUMNS, RESULT_COLUMNS, RESULTS_SCHEMA_VERSION};
+use super::{Column, ColumnType, FRAME_COLUMNS, RESULT_COLUMNS, RESULTS_SCHEMA_VERSION, TRUTH_COLUMNS};
 
 /// Markdown of the data dictionary. A test holds docs/results.md against it.
 #[must_use]
@@ -56,8 +56,21 @@ pub fn ledger_markdown() -> String {
     text
 }
 
+/// Markdown of the columns of `truth.parquet`. A test holds docs/simulate.md against it.
+#[must_use]
+pub fn truth_markdown() -> String {
+    let mut text = String::new();
+    columns_table(&mut text, TRUTH_COLUMNS);
+    text
+}
+
 fn section(text: &mut String, file: &str, about: &str, columns: &[Column]) {
-    let _ = write!(text, "\n## {file}\n\n{about}\n\n| column | type | empty | meaning |\n|---|---|---|---|\n");
+    let _ = write!(text, "\n## {file}\n\n{about}\n\n");
+    columns_table(text, columns);
+}
+
+fn columns_table(text: &mut String, columns: &[Column]) {
+    text.push_str("| column | type | empty | meaning |\n|---|---|---|---|\n");
     for column in columns {
         let type_name = match column.column_type {
             ColumnType::Text => "text",

@@ -76,6 +76,8 @@ macro_rules! schema {
     };
 }
 
+pub(super) use schema;
+
 schema! {
     /// One row of `results.parquet`: a size of an object, by one rater and one method, from one image or fused.
     ResultRow, RESULT_COLUMNS {

@@ -1,4 +1,4 @@
-//! Rims that the program found, as a LabelMe file that a person can open, check and correct.
+//! LabelMe files that a person can open, check and correct: of rims that the program found, of marks from other tools.
 
 use model::{Feature, Mark, ObjectMarks};
 use nalgebra::Point2;
@@ -44,36 +44,41 @@ struct File<'a> {
 #[derive(Serialize)]
 struct NoFlags {}
 
+/// A shape of a file.
 #[derive(Serialize)]
-struct Shape<'a> {
+pub(crate) struct Shape<'a> {
     label: String,
     points: &'a [[f64; 2]],
     group_id: Option<()>,
     shape_type: &'static str,
     flags: NoFlags,
-    aim_batch: Found,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    aim_batch: Option<Found>,
 }
 
 impl<'a> Shape<'a> {
     fn of(rim: &'a AutoRim) -> Self {
-        Self {
-            label: format!("{}/{}", rim.object, Feature::Rim),
-            points: &rim.points_px,
-            group_id: None,
-            shape_type: "polygon",
-            flags: NoFlags {},
-            aim_batch: rim.found,
-        }
+        let label = format!("{}/{}", rim.object, Feature::Rim);
+        Self { aim_batch: Some(rim.found), ..Self::new(label, "polygon", &rim.points_px) }
+    }
+
+    /// `shape_type`: LabelMe's word; `points`: as LabelMe counts pixels.
+    pub fn new(label: String, shape_type: &'static str, points: &'a [[f64; 2]]) -> Self {
+        Self { label, points, group_id: None, shape_type, flags: NoFlags {}, aim_batch: None }
     }
 }
 
 /// The text of the file. `image_path`: where the picture is, from where the file will be; `picture_px`: its width and height.
-pub(crate) fn text_of(
-    rims: &[AutoRim],
+pub(crate) fn text_of(rims: &[AutoRim], image_path: &str, picture_px: [u32; 2]) -> serde_json::Result<String> {
+    text_of_shapes(rims.iter().map(Shape::of).collect(), image_path, picture_px)
+}
+
+/// As [`text_of`], of any shapes.
+pub(crate) fn text_of_shapes(
+    shapes: Vec<Shape<'_>>,
     image_path: &str,
     [image_width, image_height]: [u32; 2],
 ) -> serde_json::Result<String> {
-    let shapes = rims.iter().map(Shape::of).collect();
     let (version, flags, image_data) = (LABELME_VERSION, NoFlags {}, None);
     let file = File { version, flags, shapes, image_path, image_data, image_height, image_width };
     serde_json::to_string_pretty(&file).map(|text| text + "\n")

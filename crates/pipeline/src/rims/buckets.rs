@@ -29,15 +29,20 @@ impl Buckets {
         let cells = |extent: f32| if extent.is_finite() { (extent / side) as usize + 1 } else { 1 };
         let (columns, rows) = (cells(right - left), cells(far - near));
         let square = |e: &GroundEdge| ((e.y - near) / side) as usize * columns + ((e.x - left) / side) as usize;
+        let squares: Vec<usize> = edges.iter().map(square).collect();
         let mut starts = vec![0_u32; columns * rows + 1];
-        for e in edges {
-            starts[square(e) + 1] += 1;
+        for square in &squares {
+            starts[square + 1] += 1;
         }
         for i in 1..starts.len() {
             starts[i] += starts[i - 1];
         }
+        let mut places = starts.clone();
         let mut sorted: Vec<GroundEdge> = edges.to_vec();
-        sorted.sort_by_key(square);
+        for (e, square) in edges.iter().zip(squares) {
+            sorted[places[square] as usize] = *e;
+            places[square] += 1;
+        }
         Self { left, near, side, columns, rows, starts, edges: sorted }
     }
 

@@ -34,8 +34,13 @@ impl Scaled {
                 }
             }
             for block in columns.chunks_exact(3 * factor).take(width) {
-                for (c, plane) in planes.iter_mut().enumerate() {
-                    let sum: u32 = block.iter().skip(c).step_by(3).map(|s| u32::from(*s)).sum();
+                let mut sums = [0_u32; 3];
+                for pixel in block.as_chunks::<3>().0 {
+                    for (sum, column) in sums.iter_mut().zip(pixel) {
+                        *sum += u32::from(*column);
+                    }
+                }
+                for (plane, sum) in planes.iter_mut().zip(sums) {
                     #[expect(clippy::cast_precision_loss, reason = "a sum of a few bytes")]
                     plane.push(sum as f32 * mean);
                 }

@@ -6,9 +6,11 @@ mod columns;
 mod read;
 mod row_file;
 mod sink;
+mod truth;
 
 pub use read::{ReadError, Results, read_frames};
 pub use sink::{ParquetSink, SinkError};
+pub use truth::{read_truth, write_truth};
 
 /// Key of the schema's version in the key-value metadata.
 const VERSION_KEY: &str = "aim_batch.schema_version";

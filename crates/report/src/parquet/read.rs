@@ -160,12 +160,24 @@ pub fn read_frames(path: &Path) -> Result<Vec<FrameRow>, ReadError> {
 }
 
 fn read_rows<R: Row>(path: &Path) -> Result<(Vec<R>, RunMetadata), ReadError> {
+    read_rows_and(path, RESULTS_SCHEMA_VERSION, RUN_KEY, |run| {
+        serde_json::from_str(&run).map_err(|source| ReadError::Metadata { path: path.to_owned(), source })
+    })
+}
+
+/// Rows of a file of this version of its schema, and what `parse` makes of what its metadata has under `key`, before any row.
+pub(super) fn read_rows_and<R: Row, M>(
+    path: &Path,
+    version: u32,
+    key: &'static str,
+    parse: impl FnOnce(String) -> Result<M, ReadError>,
+) -> Result<(Vec<R>, M), ReadError> {
     // Read, not mapped: a mapped file that another job shortens would end this one.
     let bytes = std::fs::read(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
     let not_parquet = |source| ReadError::NotParquet { path: path.to_owned(), source };
     // One thread, so that a panic on damaged bytes arises here, where it is caught.
     let mut reader = ParquetReader::new(Cursor::new(bytes)).set_rechunk(true).read_parallel(ParallelStrategy::None);
-    let metadata = run_metadata(&mut reader, path)?;
+    let metadata = parse(metadata(&mut reader, path, version, key)?)?;
     let schema = guarded(path, || reader.schema())?;
     let there = R::COLUMNS.iter().filter(|column| schema.contains(column.name));
     let names: Vec<String> = there.map(|column| column.name.to_owned()).collect();
@@ -197,23 +209,24 @@ fn guarded<T>(path: &Path, read: impl FnOnce() -> PolarsResult<T>) -> Result<T, 
     }
 }
 
-fn run_metadata(reader: &mut ParquetReader<Cursor<Vec<u8>>>, path: &Path) -> Result<RunMetadata, ReadError> {
+fn metadata(
+    reader: &mut ParquetReader<Cursor<Vec<u8>>>,
+    path: &Path,
+    expected: u32,
+    key: &'static str,
+) -> Result<String, ReadError> {
     let file = guarded(path, || reader.get_metadata())?;
     let value_of = |key: &'static str| {
         let mut pairs = file.key_value_metadata.iter().flatten();
         pairs
-            .find_map(|pair| pair.value.as_ref().filter(|_| pair.key == key))
+            .find_map(|pair| pair.value.clone().filter(|_| pair.key == key))
             .ok_or(ReadError::NotOurs { path: path.to_owned(), key })
     };
-    let version = value_of(VERSION_KEY)?;
-    if version.parse() != Ok(RESULTS_SCHEMA_VERSION) {
-        return Err(ReadError::OtherVersion {
-            path: path.to_owned(),
-            expected: RESULTS_SCHEMA_VERSION,
-            got: version.clone(),
-        });
+    let got = value_of(VERSION_KEY)?;
+    if got.parse() != Ok(expected) {
+        return Err(ReadError::OtherVersion { path: path.to_owned(), expected, got });
     }
-    serde_json::from_str(value_of(RUN_KEY)?).map_err(|source| ReadError::Metadata { path: path.to_owned(), source })
+    value_of(key)
 }
 
 fn check_column(frame: &DataFrame, column: &Column, path: &Path) -> Result<(), ReadError> {

@@ -1,24 +1,61 @@
-//! For papers: booktabs and threeparttable.
+//! For papers: booktabs, with threeparttable for tables of a page and longtable for longer ones.
 
 use super::display::{caption, cell, heading, printable, shown};
-use crate::table::{Align, Column, Role, RowKind, Table};
+use crate::table::{Align, Column, Role, RowKind, Table, TableRow};
 
-/// The table as a LaTeX float. The document needs `\usepackage{booktabs,threeparttable}`; pdflatex compiles it.
+/// More rows than this do not stand on a page.
+const MOST_ROWS_OF_A_PAGE: usize = 55;
+
+/// The widest table in each size of letters, in characters, for a text of 17 cm (A4 with margins of 2 cm), and the space beside columns.
+const WIDTHS: [(usize, &str, &str); 3] =
+    [(112, "\\footnotesize", "3pt"), (132, "\\scriptsize", "3pt"), (usize::MAX, "\\tiny", "1.5pt")];
+
+type Columns<'a> = [(usize, &'a Column)];
+
+/// The table as a LaTeX float, or, if it is longer than a page, as one that goes on from page to page. The document needs
+/// `\usepackage{booktabs,longtable,threeparttable}`; pdflatex compiles it. Letters are as small as a text width of 17 cm needs.
 #[must_use]
 pub fn latex(table: &Table) -> String {
     let columns = shown(table);
-    let alignment: String = columns.iter().map(|(_, column)| alignment(column)).collect();
-    // The float numbers itself; 'Table II.' would stand there twice. The file and the label say which it is.
+    let is_long = table.rows.len() > MOST_ROWS_OF_A_PAGE;
+    let comment = format!("% {}\n", caption(table));
+    comment + &if is_long { long(table, &columns) } else { float(table, &columns) }
+}
+
+fn float(table: &Table, columns: &Columns<'_>) -> String {
+    let ([size, space], notes) = (size(table, columns), notes(table));
+    // An empty list is an error in LaTeX.
+    let notes = if notes.is_empty() { notes } else { format!("\\begin{{tablenotes}}\n{notes}\\end{{tablenotes}}\n") };
+    format!(
+        "% Needs \\usepackage{{booktabs,threeparttable}}.\n\\begin{{table}}[htbp]\n\\centering{size}\n\\begin{{threeparttable}}\n{}\n\\setlength{{\\tabcolsep}}{{{space}}}\n\\begin{{tabular}}{{{}}}\n\\toprule\n{}\\midrule\n{}\\bottomrule\n\\end{{tabular}}\n{notes}\\end{{threeparttable}}\n\\end{{table}}\n",
+        captioned(table),
+        alignments(columns),
+        line(columns.iter().map(|(_, column)| stacked_heading(column))),
+        body(table, columns),
+    )
+}
+
+fn long(table: &Table, columns: &Columns<'_>) -> String {
+    let [size, space] = size(table, columns);
+    let heading = line(columns.iter().map(|(_, column)| stacked_heading(column)));
+    format!(
+        "% Needs \\usepackage{{booktabs,longtable,threeparttable}}.\n\\begingroup{size}\n\\setlength{{\\tabcolsep}}{{{space}}}\\setlength{{\\LTcapwidth}}{{\\linewidth}}\n\\begin{{longtable}}{{{}}}\n{}\\\\\n\\toprule\n{heading}\\midrule\n\\endfirsthead\n\\toprule\n{heading}\\midrule\n\\endhead\n\\bottomrule\n\\endfoot\n{}\\end{{longtable}}\n\\begin{{tablenotes}}\n\\item[] \n{}\\end{{tablenotes}}\n\\endgroup\n",
+        alignments(columns),
+        captioned(table),
+        body(table, columns),
+        notes(table),
+    )
+}
+
+/// The caption, with what its statistics are. The float numbers itself; 'Table II.' would stand there twice.
+fn captioned(table: &Table) -> String {
     let title = printable(&table.title);
-    let mut text = format!(
-        "% {}\n% Needs \\usepackage{{booktabs,threeparttable}}.\n\\begin{{table}}[htbp]\n\\centering\\footnotesize\n\\begin{{threeparttable}}\n\\caption{{{}. {}}}\n\\label{{tab:{}}}\n\\setlength{{\\tabcolsep}}{{3pt}}\n\\begin{{tabular}}{{{alignment}}}\n\\toprule\n",
-        caption(table),
-        escaped(title.trim_end_matches('.')),
-        escaped(&printable(&table.statistic)),
-        label(&table.stem),
-    );
-    text.push_str(&line(columns.iter().map(|(_, column)| stacked_heading(column))));
-    text.push_str("\\midrule\n");
+    let statistic = escaped(&printable(&table.statistic));
+    format!("\\caption{{{}. {statistic}}}\n\\label{{tab:{}}}", escaped(title.trim_end_matches('.')), label(&table.stem))
+}
+
+fn body(table: &Table, columns: &Columns<'_>) -> String {
+    let mut text = String::new();
     for (index, row) in table.rows.iter().enumerate() {
         let after_mean = index > 0 && table.rows[index - 1].kind == RowKind::ObjectMean;
         let begins_overall = row.kind == RowKind::Overall && index > 0;
@@ -30,10 +67,25 @@ pub fn latex(table: &Table) -> String {
             if place == 0 && !row.marks.is_empty() { format!("{text}\\tnote{{{}}}", row.marks.join(",")) } else { text }
         })));
     }
-    text.push_str("\\bottomrule\n\\end{tabular}\n");
-    text.push_str(&notes(table));
-    text.push_str("\\end{threeparttable}\n\\end{table}\n");
     text
+}
+
+/// The largest letters in which the table is not wider than a text of 17 cm, and the space beside columns.
+fn size(table: &Table, columns: &Columns<'_>) -> [&'static str; 2] {
+    let length = |text: &str| text.chars().count();
+    let width = |(place, column): (usize, &(usize, &Column))| {
+        let words = heading(column.1);
+        let longest_word = words.split_whitespace().map(length).max().unwrap_or(0);
+        let of_row = |row: &TableRow| length(&cell(table, row, place, *column));
+        let of_rows = if column.1.role == Role::Note { 0 } else { table.rows.iter().map(of_row).max().unwrap_or(0) };
+        longest_word.max(of_rows) + 2
+    };
+    let all: usize = columns.iter().enumerate().map(width).sum();
+    WIDTHS.iter().find(|(widest, ..)| all <= *widest).map_or(["", ""], |(_, size, space)| [size, space])
+}
+
+fn alignments(columns: &Columns<'_>) -> String {
+    columns.iter().map(|(_, column)| alignment(column)).collect()
 }
 
 /// Sentences wrap; names and numbers do not.
@@ -52,6 +104,7 @@ fn stacked_heading(column: &Column) -> String {
     format!("\\shortstack[{side}]{{{}}}", words.join("\\\\"))
 }
 
+/// Footnotes and remarks, as items of a list.
 fn notes(table: &Table) -> String {
     let mut items = String::new();
     for footnote in &table.footnotes {
@@ -60,8 +113,7 @@ fn notes(table: &Table) -> String {
     for remark in table.remarks.iter().chain(&table.statement) {
         items.push_str(&format!("\\item[] {}\n", escaped(&printable(remark))));
     }
-    // An empty list is an error in LaTeX.
-    if items.is_empty() { items } else { format!("\\begin{{tablenotes}}\n{items}\\end{{tablenotes}}\n") }
+    items
 }
 
 fn line(cells: impl Iterator<Item = String>) -> String {

@@ -73,6 +73,23 @@ fn height_band(row: &ResultRow) -> Option<Band> {
     height_mm.is_finite().then_some(Band { basis: Some("measured"), from, to })
 }
 
+/// Borders of a row's band of measured pitch, in degrees.
+pub(crate) fn pitch_band_deg(row: &ResultRow) -> Option<[f64; 2]> {
+    pitch_band(row).map(Band::borders)
+}
+
+/// Borders of a row's band of height of the camera, in cm; equal ones where the height is nominal.
+pub(crate) fn height_band_cm(row: &ResultRow) -> Option<[f64; 2]> {
+    height_band(row).map(Band::borders)
+}
+
+impl Band {
+    #[expect(clippy::cast_precision_loss, reason = "borders are far below 2^53")]
+    fn borders(self) -> [f64; 2] {
+        [self.from, self.to].map(|border| border as f64 / 1e3)
+    }
+}
+
 /// Name of a row's band of pitch.
 pub(super) fn pitch_name(row: &ResultRow) -> Option<String> {
     pitch_band(row).map(|band| band_name(band, "deg"))

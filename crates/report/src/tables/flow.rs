@@ -107,7 +107,7 @@ fn table(results: &Results, sessions: &[Session<'_>], total: &Flow) -> Table {
 }
 
 /// Narrow headings: eight columns of numbers must stand beside the names of sessions in a terminal.
-const fn heading(step: FlowStep) -> &'static str {
+pub(crate) const fn step_heading(step: FlowStep) -> &'static str {
     match step {
         FlowStep::Found => "found",
         FlowStep::Readable => "can be read",
@@ -126,7 +126,7 @@ fn columns(total: &Flow) -> Vec<Column> {
     let mut columns = vec![Column::key(ROW), Column::key("session").headed("session")];
     columns.extend(FlowStep::ALL.iter().map(|step| {
         let is_shown = *step != FlowStep::Readable || !all_readable;
-        Column::result(step.code(), "").headed_if(is_shown, heading(*step))
+        Column::result(step.code(), "").headed_if(is_shown, step_heading(*step))
     }));
     columns.push(Column::result("other_marked", "").headed("other marks"));
     columns.push(Column::result("other_measured", ""));

@@ -19,6 +19,8 @@ use model::{TableLayout, TableSpec};
 pub use accuracy::accuracy;
 pub use agreement::rater_agreement;
 pub use bands::{error_by_height, error_by_pitch};
+pub(crate) use bands::{height_band_cm, pitch_band_deg};
+pub(crate) use flow::step_heading;
 pub use flow::{flow, flow_in_short};
 pub use left_out::left_out;
 pub use methods::methods;

@@ -32,6 +32,23 @@ fn every_table_in_three_formats_and_one_document_with_the_statement_once() {
 }
 
 #[test]
+fn every_table_says_what_it_is_and_how_its_statistics_are_defined() {
+    let dir = tempfile::tempdir().unwrap();
+    write_dir(&bench::plates(), dir.path()).unwrap();
+    let tex: Vec<String> = names(dir.path()).into_iter().filter(|name| name.ends_with(".tex")).collect();
+    assert_eq!(tex.len(), 5);
+    for name in tex {
+        let text = |extension: &str| std::fs::read_to_string(dir.path().join(&name).with_extension(extension)).unwrap();
+        let caption = text("tex").split("\\caption{").nth(1).unwrap().split("}\n\\label").next().unwrap().to_owned();
+        let (title, statistic) = caption.split_once(". ").unwrap();
+        assert!(!title.is_empty() && statistic.ends_with('.') && statistic.len() > 60, "{name}: {caption}");
+        // The same sentences, but for what LaTeX and Markdown escape.
+        let first = statistic.split([':', '\\']).next().unwrap();
+        assert!(text("md").starts_with("### ") && text("md").contains(first), "{name}: {first}");
+    }
+}
+
+#[test]
 fn ids_that_cannot_name_files_are_refused_before_anything_is_written() {
     let dir = tempfile::tempdir().unwrap();
     for id in ["../II", "", "a/b", "a\\b", "a b"] {

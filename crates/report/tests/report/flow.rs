@@ -2,8 +2,8 @@
 
 use model::{FrameReason, FrameRow, Problem, ResultSink as _, RunLog, RunMetadata, SessionStatus, Severity, Stage};
 use report::{
-    ParquetSink, ReadError, Results, Table, compare, csv, flow, flow_in_short, frames_file, latex, left_out, terminal,
-    terminal_set, write_dir,
+    ParquetSink, ReadError, Results, Table, compare, csv, flow, flow_bars, flow_in_short, frames_file, latex, left_out,
+    terminal, terminal_set, write_dir,
 };
 
 use crate::bench;
@@ -64,6 +64,19 @@ fn drawn() {
     insta::assert_snapshot!("flow_terminal", terminal_set(&tables, Some(80)));
     insta::assert_snapshot!("left_out_latex", latex(&tables[1]));
     insta::assert_snapshot!("flow_csv", tables.iter().map(csv).collect::<Vec<_>>().join("\n"));
+}
+
+/// The bars have the words of the table and of the figure.
+#[test]
+fn bars_for_a_terminal() {
+    let text = flow_bars(&small(), Some(60)).unwrap();
+    insta::assert_snapshot!("flow_bars", text);
+    assert!(text.lines().all(|line| line.chars().count() <= 60), "{text}");
+    let figures = report::figures(&small(), &frames());
+    for line in text.lines().filter(|line| line.contains("left out: ")) {
+        assert!(figures.drawn[0].svg.contains(line.trim()), "{line}");
+    }
+    assert!(flow_bars(&bench::plates(), None).is_none());
 }
 
 #[test]

@@ -5,7 +5,10 @@ extern crate aim_batch_report as report;
 
 mod bench;
 mod compare;
+mod documents;
+mod drawn;
 mod escaping;
+mod figures;
 mod files;
 mod flow;
 mod golden;
@@ -13,4 +16,5 @@ mod misuse;
 mod parquet;
 mod sizes;
 mod statistics;
+mod truth;
 mod validation;

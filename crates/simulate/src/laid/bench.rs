@@ -18,18 +18,19 @@ const PITCHES_DEG: [f64; 3] = [45.0, 55.0, 65.0];
 const FIRST_S: f64 = 5.25;
 const PERIOD_S: f64 = 10.0;
 
+/// Number of sessions.
+pub(super) const SESSIONS: usize = HEIGHTS_MM.len() * PITCHES_DEG.len();
+
 /// Nine sessions of one setup each, one picture of every object, each on another table in other light. The containers are
 /// empty; something else lies beside most of them.
 #[must_use]
 pub fn bench(seed: u64, width_px: u32) -> Vec<Plan> {
-    let setups = HEIGHTS_MM.iter().flat_map(|height| PITCHES_DEG.map(|pitch| (*height, pitch)));
-    setups
-        .enumerate()
-        .map(|(number, (height_mm, pitch_deg))| session(seed, width_px, number, height_mm, pitch_deg))
-        .collect()
+    (0..SESSIONS).map(|number| session(seed, width_px, number)).collect()
 }
 
-fn session(seed: u64, width_px: u32, number: usize, height_mm: f64, pitch_deg: f64) -> Plan {
+/// One of them.
+pub(super) fn session(seed: u64, width_px: u32, number: usize) -> Plan {
+    let (height_mm, pitch_deg) = (HEIGHTS_MM[number / PITCHES_DEG.len()], PITCHES_DEG[number % PITCHES_DEG.len()]);
     let head = HeadPose { pitch_deg, roll_deg: 0.0, range_mm: height_mm / pitch_deg.to_radians().sin() };
     let frames = (0..WARES.len()).map(|at| {
         let mut random = random(seed, Use::Scene, number * WARES.len() + at);
@@ -38,6 +39,7 @@ fn session(seed: u64, width_px: u32, number: usize, height_mm: f64, pitch_deg: f
     Plan {
         name: format!("bench-{height_mm:.0}mm-{pitch_deg:.0}deg"),
         setup: Some((height_mm, pitch_deg)),
+        participant: None,
         motion: Motion::fixed(head),
         sway_deg: 0.0,
         frames: frames.collect(),
@@ -58,7 +60,7 @@ fn frame(random: &mut ChaCha8Rng, width_px: u32, at: usize, head: HeadPose) -> F
     Frame {
         time_s: FIRST_S + PERIOD_S * at as f64,
         world,
-        placed: vec![Placed { object, ware, at_mm, turn_rad }],
+        placed: vec![Placed { object: object.into(), ware, at_mm, turn_rad }],
         vessels,
         head,
         stand: (Point2::origin(), 0.0),

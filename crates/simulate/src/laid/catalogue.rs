@@ -1,6 +1,6 @@
 //! The eight containers of both presets.
 
-use model::Kind;
+use model::{Kind, Shape};
 
 use super::ware::{Wall, Ware};
 
@@ -15,16 +15,20 @@ pub(super) const WARES: [(&str, Ware); 8] = [
     ("salad bowl", bowl(208.0, 82.0, 104.0, Wall::Curved(0.6))),
     (
         "lunch box",
-        Ware { kind: Kind::Box, width_mm: 120.0, thickness_mm: 3.0, ..bowl(180.0, 54.0, 120.0, Wall::Straight) },
+        Ware {
+            kind: Kind::Box,
+            shape: Shape::Rectangle,
+            width_mm: 120.0,
+            thickness_mm: 3.0,
+            ..bowl(180.0, 54.0, 120.0, Wall::Straight)
+        },
     ),
 ];
 
 const fn plate(diameter_mm: f64, height_mm: f64, foot_mm: f64, well_mm: f64) -> Ware {
-    let (kind, thickness_mm, wall) = (Kind::Plate, 5.0, Wall::Straight);
-    Ware { kind, diameter_mm, width_mm: diameter_mm, height_mm, foot_mm, well_mm, thickness_mm, wall }
+    Ware::plate(Shape::Circle, [diameter_mm, diameter_mm], height_mm, foot_mm, well_mm)
 }
 
 const fn bowl(diameter_mm: f64, height_mm: f64, foot_mm: f64, wall: Wall) -> Ware {
-    let (kind, thickness_mm) = (Kind::Bowl, 4.0);
-    Ware { kind, diameter_mm, width_mm: diameter_mm, height_mm, foot_mm, well_mm: foot_mm, thickness_mm, wall }
+    Ware::bowl(diameter_mm, height_mm, foot_mm, wall)
 }

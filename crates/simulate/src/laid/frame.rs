@@ -1,10 +1,10 @@
 //! One picture to be taken: world, camera, and what is true of it.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::sync::Arc;
 
-use model::{Camera, Kind, Pose, Quantity, View};
+use model::{Camera, Kind, Pose, Quantity, Shape, View};
 use nalgebra::{Point2, Point3, Rotation2, Vector2};
-use serde::Serialize;
 
 use super::things::Vessel;
 use super::ware::Ware;
@@ -21,14 +21,14 @@ const RIM_PLACES: u32 = 90;
 const RIM_ITSELF_MM: f64 = 12.0;
 
 /// Half of the range sensor's cone (VL53L0X data sheet: 25 degrees), and rings and rays of it.
-const HALF_CONE_RAD: f64 = 12.5 * std::f64::consts::PI / 180.0;
+const HALF_CONE_RAD: f64 = 12.5 * PI / 180.0;
 const CONE_RAYS: (u32, u32) = (6, 16);
 
 /// A container in a world.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
     /// Its name.
-    pub object: &'static str,
+    pub object: Arc<str>,
     /// Its form.
     pub ware: Ware,
     /// Where its axis meets the table, in the frame of [`Frame::world`].
@@ -59,17 +59,19 @@ pub struct Frame {
 }
 
 /// What is true of a container in a picture. The world frame is that of the picture's pose: the camera above the origin.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Truth {
     /// Name, as in objects.csv.
-    pub object: &'static str,
+    pub object: Arc<str>,
     /// Plate, bowl or box.
     pub kind: Kind,
+    /// Circle, square or rectangle.
+    pub shape: Shape,
     /// Of round ones.
     pub true_diameter_mm: Option<f64>,
-    /// Short side of a box.
+    /// Side of a square, short side of a rectangle.
     pub true_width_mm: Option<f64>,
-    /// Long side of a box.
+    /// Long side of a rectangle.
     pub true_length_mm: Option<f64>,
     /// From the table to the top.
     pub true_height_mm: f64,
@@ -79,6 +81,8 @@ pub struct Truth {
     pub center_x_mm: f64,
     /// Away from the wearer.
     pub center_y_mm: f64,
+    /// Turn of the long side from the right towards away; 0 for what is round.
+    pub turn_deg: f64,
     /// Share of the rim inside the picture.
     pub rim_in_picture: f64,
     /// Share of the rim inside the picture and not hidden.
@@ -121,19 +125,20 @@ impl Frame {
 
     fn truth(&self, view: &View, placed: &Placed) -> Truth {
         let ware = &placed.ware;
-        let is_box = ware.kind == Kind::Box;
         let center = self.in_view(placed.at_mm);
         let (in_picture, seen) = self.rim_shares(view, placed);
         Truth {
-            object: placed.object,
+            object: placed.object.clone(),
             kind: ware.kind,
-            true_diameter_mm: (!is_box).then_some(ware.diameter_mm),
-            true_width_mm: is_box.then_some(ware.width_mm),
-            true_length_mm: is_box.then_some(ware.diameter_mm),
+            shape: ware.shape,
+            true_diameter_mm: ware.across_mm(Quantity::Diameter),
+            true_width_mm: ware.across_mm(Quantity::Width),
+            true_length_mm: ware.across_mm(Quantity::Length),
             true_height_mm: ware.height_mm,
             rim_level_mm: ware.rim_level_mm(),
             center_x_mm: center.x,
             center_y_mm: center.y,
+            turn_deg: if ware.is_round() { 0.0 } else { (placed.turn_rad - self.stand.1).to_degrees() },
             rim_in_picture: in_picture,
             rim_seen: seen,
         }
@@ -157,20 +162,21 @@ impl Frame {
         (f64::from(inside) / f64::from(RIM_PLACES), f64::from(seen) / f64::from(RIM_PLACES))
     }
 
-    /// The marks of someone who never errs: the rim across, of a box also the height of its near wall. Those that would lie
-    /// outside the picture are left out.
+    /// The marks of someone who never errs: the rim across, each way if it is a rectangle, and of a box the height of the wall
+    /// nearest to the camera. Those that would lie outside the picture are left out.
     #[must_use]
     pub fn marks(&self, view: &View) -> Vec<LabeledLine> {
         let [width, height] = view.camera().size_px().map(f64::from);
         let is_inside = |p: &Point2<f64>| (0.0..width).contains(&p.x) && (0.0..height).contains(&p.y);
-        let lines = self.placed.iter().flat_map(|placed| placed.lines().map(|line| (placed.object, line)));
+        let lines =
+            self.placed.iter().flat_map(|placed| placed.lines(self.stand.0).map(|line| (placed.object.clone(), line)));
         let drawn = lines.filter_map(|(object, (quantity, ends))| {
             let pixel = |p: Point3<f64>| {
                 let level = self.in_view(p.xy());
                 view.pixel_of(Point3::new(level.x, level.y, p.z)).ok().filter(is_inside)
             };
             let ends_px = [pixel(ends[0])?, pixel(ends[1])?];
-            Some(LabeledLine { object: object.to_owned(), quantity, ends_px })
+            Some(LabeledLine { object: object.to_string(), quantity, ends_px })
         });
         drawn.collect()
     }
@@ -199,26 +205,32 @@ impl Frame {
 }
 
 impl Placed {
-    /// A point of the rim: of a box, where a ray from its middle leaves it.
+    /// A point of the rim: of a rectangle, where a ray from its middle leaves it.
     fn rim_point(&self, angle: f64) -> Point3<f64> {
         let (half_x, half_y) = (0.5 * self.ware.diameter_mm, 0.5 * self.ware.width_mm);
         let unit = Vector2::new(angle.cos(), angle.sin());
-        let reach = if self.ware.kind == Kind::Box {
-            (half_x / unit.x.abs().max(1e-9)).min(half_y / unit.y.abs().max(1e-9))
-        } else {
+        let reach = if self.ware.is_round() {
             half_x
+        } else {
+            (half_x / unit.x.abs().max(1e-9)).min(half_y / unit.y.abs().max(1e-9))
         };
         let at = self.at_mm + Rotation2::new(self.turn_rad) * (unit * reach);
         Point3::new(at.x, at.y, self.ware.rim_level_mm())
     }
 
-    /// Quantities and the ends of the lines that show them.
-    fn lines(&self) -> impl Iterator<Item = (Quantity, [Point3<f64>; 2])> {
-        let across = [self.rim_point(std::f64::consts::PI), self.rim_point(0.0)];
-        let near = self.rim_point(-std::f64::consts::FRAC_PI_2);
-        let is_box = self.ware.kind == Kind::Box;
-        let span = if is_box { Quantity::Length } else { Quantity::Diameter };
-        let wall = is_box.then_some((Quantity::Height, [Point3::new(near.x, near.y, 0.0), near]));
-        std::iter::once((span, across)).chain(wall)
+    /// Quantities and the ends of the lines that show them to a camera above `stand`.
+    fn lines(&self, stand: Point2<f64>) -> impl Iterator<Item = (Quantity, [Point3<f64>; 2])> {
+        let across = |angle: f64| [self.rim_point(angle + PI), self.rim_point(angle)];
+        let lines: &[(Quantity, f64)] = match self.ware.shape {
+            Shape::Circle => &[(Quantity::Diameter, 0.0)],
+            Shape::Square => &[(Quantity::Width, 0.0)],
+            Shape::Rectangle => &[(Quantity::Length, 0.0), (Quantity::Width, FRAC_PI_2)],
+        };
+        let far = |point: &Point3<f64>| (point.xy() - stand).norm();
+        let middles = [0.0, FRAC_PI_2, PI, -FRAC_PI_2].map(|angle| self.rim_point(angle));
+        let near = middles.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)));
+        let wall = near.filter(|_| self.ware.kind == Kind::Box);
+        let wall = wall.map(|top| (Quantity::Height, [Point3::new(top.x, top.y, 0.0), top]));
+        lines.iter().map(move |(quantity, angle)| (*quantity, across(*angle))).chain(wall)
     }
 }

@@ -7,23 +7,28 @@
 mod bench;
 mod catalogue;
 mod frame;
+mod options;
 mod plan;
+mod rectangular;
+mod scene_file;
 mod sensors;
 mod table;
 #[cfg(test)]
 mod tests;
 mod things;
+mod walk;
 mod ware;
 mod worn;
 mod write;
 
 pub use bench::bench;
 pub use frame::{Frame, Placed, Truth};
+pub use options::{LaidOptions, LaidPreset, camera, write};
 pub use plan::Plan;
+pub use scene_file::{SceneCamera, SceneSpec};
 pub use things::Vessel;
 pub use ware::{Wall, Ware};
 pub use worn::worn;
-pub use write::{LaidOptions, LaidPreset, camera, write};
 
 use crate::sensors::HeadPose;
 

@@ -18,6 +18,8 @@ pub struct Plan {
     pub name: String,
     /// Height (mm) and pitch (degrees) of a bench's setup.
     pub setup: Option<(f64, f64)>,
+    /// Who wears the camera; on a bench nobody.
+    pub participant: Option<String>,
     /// How the head moves.
     pub motion: Motion,
     /// Sway of a living head about that, in degrees (amplitude).
@@ -44,6 +46,9 @@ pub(super) enum Use {
     Head,
     Acceleration,
     Range,
+    Image,
+    Glaze,
+    Food,
 }
 
 /// A stream of randomness, for the `of`-th session or picture.

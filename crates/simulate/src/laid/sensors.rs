@@ -12,26 +12,55 @@ use crate::sensors::{
     HeadPose, MOUNT_PITCH_DEG, PACKET_PERIOD_S, encode_packet, packet_sample_times_s, posix_s, up_in_device,
 };
 
-/// ADXL362: counts per g at +-2 g, noise of a sample (550 ug/sqrt Hz over 50 Hz), SD of the zero-g offset of an axis after
-/// soldering, all in mg (data sheet, table 1: offsets up to 35 mg on X and Y; most are smaller).
+/// ADXL362: counts per g at +-2 g.
 const COUNTS_PER_G: f64 = 1000.0;
-const NOISE_MG: f64 = 4.0;
-const OFFSET_MG: f64 = 8.0;
-
-/// VL53L0X: a reading every 33 ms, noise as a share of the distance and at least (both SD), its own scale (SD), shares of readings
-/// that are lost and that are held for several periods, the code for no target, and the furthest it reads.
+/// VL53L0X: a reading every 33 ms, and the code for no target.
 const READING_S: f64 = 0.033;
-const RANGE_NOISE: f64 = 0.012;
-const RANGE_NOISE_MM: f64 = 2.0;
-const RANGE_SCALE: f64 = 0.01;
-const LOST: f64 = 0.03;
-const HELD: f64 = 0.02;
 const NO_TARGET: i16 = 8190;
-const FURTHEST_MM: f64 = 1200.0;
 /// The range sensor starts later than the accelerometer, so that their packets do not line up.
 const RANGE_STARTS_S: f64 = 0.375;
 /// Recording goes on after the last picture.
 const AFTER_S: f64 = 6.0;
+
+/// How the sensors of a study err.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct SensorErrors {
+    /// Accelerometer: offset of each axis, in mg; where none is given, each session draws its own with this SD.
+    pub zero_g_offset_mg: Option<[f64; 3]>,
+    pub zero_g_offset_sd_mg: f64,
+    /// SD of a sample, in mg.
+    pub acceleration_noise_mg: f64,
+    /// Range sensor: its own scale less one; where none is given, each session draws it with this SD.
+    pub range_scale: Option<f64>,
+    pub range_scale_sd: f64,
+    /// SD of a reading: as a share of the distance, and at least.
+    pub range_noise: f64,
+    pub range_noise_least_mm: f64,
+    /// Shares of readings that are lost, and that are held for another period.
+    pub range_lost: f64,
+    pub range_held: f64,
+    /// The furthest that it reads.
+    pub range_furthest_mm: f64,
+}
+
+impl Default for SensorErrors {
+    /// ADXL362: noise of 550 ug/sqrt Hz over 50 Hz, zero-g offsets after soldering (data sheet, table 1: up to 35 mg on X and Y;
+    /// most are smaller). VL53L0X: ranging errors of its data sheet, table 11, and a reach over dark things.
+    fn default() -> Self {
+        Self {
+            zero_g_offset_mg: None,
+            zero_g_offset_sd_mg: 8.0,
+            acceleration_noise_mg: 4.0,
+            range_scale: None,
+            range_scale_sd: 0.01,
+            range_noise: 0.012,
+            range_noise_least_mm: 2.0,
+            range_lost: 0.03,
+            range_held: 0.02,
+            range_furthest_mm: 1200.0,
+        }
+    }
+}
 
 fn normal(random: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(random)
@@ -55,15 +84,17 @@ impl Plan {
     }
 
     /// The accelerometer's packets: gravity, noise, zero-g offset.
-    pub(super) fn acceleration(&self, seed: u64) -> Vec<Vec<u8>> {
+    pub(super) fn acceleration(&self, seed: u64, errors: &SensorErrors) -> Vec<Vec<u8>> {
         let mut random = random(seed, Use::Acceleration, self.number);
-        let offset: [f64; 3] = std::array::from_fn(|_| OFFSET_MG * normal(&mut random));
+        let drawn: [f64; 3] = std::array::from_fn(|_| errors.zero_g_offset_sd_mg * normal(&mut random));
+        let offset = errors.zero_g_offset_mg.unwrap_or(drawn);
         let packet = |first_s: f64| {
             let mut channels = vec![Vec::new(); 4];
             for time_s in packet_sample_times_s(first_s) {
                 let up = self.head_at(time_s).map_or([0.0; 3], |head| up_in_device(head, MOUNT_PITCH_DEG));
                 for axis in 0..3 {
-                    let mg = COUNTS_PER_G * up[axis] + offset[axis] + NOISE_MG * normal(&mut random);
+                    let noise = errors.acceleration_noise_mg * normal(&mut random);
+                    let mg = COUNTS_PER_G * up[axis] + offset[axis] + noise;
                     channels[axis].push(to_count(mg));
                 }
                 channels[3].push(0);
@@ -75,9 +106,15 @@ impl Plan {
 
     /// The range sensor's packets: its cone over what stands there at each picture, and in between in proportion to the way
     /// to the table; noise, scale, held and lost readings.
-    pub(super) fn range(&self, seed: u64, camera: &Camera) -> Result<Vec<Vec<u8>>, SimulateError> {
+    pub(super) fn range(
+        &self,
+        seed: u64,
+        camera: &Camera,
+        errors: &SensorErrors,
+    ) -> Result<Vec<Vec<u8>>, SimulateError> {
         let mut random = random(seed, Use::Range, self.number);
-        let scale = 1.0 + RANGE_SCALE * normal(&mut random);
+        let drawn = errors.range_scale_sd * normal(&mut random);
+        let scale = 1.0 + errors.range_scale.unwrap_or(drawn);
         let shares = self
             .frames
             .iter()
@@ -89,11 +126,12 @@ impl Plan {
         while time_s < end_s {
             let seen_mm =
                 self.head_at(time_s).map_or(f64::NAN, |head| head.range_mm * between(&shares, time_s) * scale);
-            let noisy_mm = seen_mm + normal(&mut random) * (RANGE_NOISE * seen_mm).max(RANGE_NOISE_MM);
-            let (is_lost, is_held) = (random.random_bool(LOST), random.random_bool(HELD));
+            let sd_mm = (errors.range_noise * seen_mm).max(errors.range_noise_least_mm);
+            let noisy_mm = seen_mm + normal(&mut random) * sd_mm;
+            let (is_lost, is_held) = (random.random_bool(errors.range_lost), random.random_bool(errors.range_held));
             readings.push(match readings.last() {
                 Some(held) if is_held => *held,
-                _ if is_lost || noisy_mm.is_nan() || noisy_mm > FURTHEST_MM => NO_TARGET,
+                _ if is_lost || noisy_mm.is_nan() || noisy_mm > errors.range_furthest_mm => NO_TARGET,
                 _ => to_count(noisy_mm),
             });
             time_s += READING_S;

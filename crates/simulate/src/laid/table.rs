@@ -85,7 +85,7 @@ pub(super) fn glaze(random: &mut impl Rng, ware: &Ware) -> Material {
     let print = PRINTS[random.random_range(0..PRINTS.len())];
     let rim_mm = 0.5 * ware.diameter_mm;
     let texture = match random.random_range(0..4) {
-        0 if ware.kind != model::Kind::Box => {
+        0 if ware.is_round() => {
             let inner = random.random_range(0.72..0.86) * rim_mm;
             Texture::Printed {
                 colours: [ground, print],

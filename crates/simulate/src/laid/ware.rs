@@ -1,8 +1,9 @@
 //! Tableware and boxes: forms from a few sizes.
 
-use model::{Kind, Shape};
-use nalgebra::{Point2, Point3, Vector3};
+use model::{Kind, Quantity, Shape};
+use nalgebra::Point2;
 
+use super::rectangular;
 use crate::world::{Body, Form, Material, Turned};
 
 /// How a bowl's wall rises from foot to rim.
@@ -19,15 +20,19 @@ pub enum Wall {
 pub struct Ware {
     /// Plate, bowl or box.
     pub kind: Kind,
-    /// Largest diameter of the rim; long side of a box.
+    /// Its outline from above.
+    pub shape: Shape,
+    /// Largest diameter of a round rim; side of a square, long side of a rectangle.
     pub diameter_mm: f64,
-    /// Short side of a box; else the diameter.
+    /// Short side of a rectangle; else the same as the diameter.
     pub width_mm: f64,
     /// From the table to the top of the rim.
     pub height_mm: f64,
-    /// Diameter of the foot ring, or of the foot.
+    /// Diameter of the foot ring, or of the foot; of a rectangular plate the foot's long side.
     pub foot_mm: f64,
-    /// Of plates: diameter of the well; the same as the diameter for a coupe without a flange.
+    /// Height of the foot ring.
+    pub foot_ring_mm: f64,
+    /// Of plates: diameter or long side of the well; the same as the diameter for a coupe without a flange.
     pub well_mm: f64,
     /// Thickness of wall and rim.
     pub thickness_mm: f64,
@@ -35,32 +40,61 @@ pub struct Ware {
     pub wall: Wall,
 }
 
-/// Height of a foot ring.
-const FOOT_RING_MM: f64 = 3.0;
+/// Height of a foot ring that is not given.
+pub(super) const FOOT_RING_MM: f64 = 3.0;
 /// Lines along a curved wall, and around half of a rounded rim.
 const WALL_LINES: u32 = 10;
 const LIP_LINES: u32 = 6;
 
 impl Ware {
-    /// What `model` calls its outline.
-    #[must_use]
-    pub fn shape(&self) -> Shape {
-        if self.kind == Kind::Box { Shape::Rectangle } else { Shape::Circle }
+    /// A plate with a rim 5 mm thick. `long_short_mm`: both the diameter, where it is round.
+    pub(super) const fn plate(
+        shape: Shape,
+        [diameter_mm, width_mm]: [f64; 2],
+        height_mm: f64,
+        foot_mm: f64,
+        well_mm: f64,
+    ) -> Self {
+        let (kind, foot_ring_mm, thickness_mm, wall) = (Kind::Plate, FOOT_RING_MM, 5.0, Wall::Straight);
+        Self { kind, shape, diameter_mm, width_mm, height_mm, foot_mm, foot_ring_mm, well_mm, thickness_mm, wall }
     }
 
-    /// Height of the level at which the rim is widest: its rounded edge lies half a thickness below the top.
+    /// A round bowl with a wall 4 mm thick.
+    pub(super) const fn bowl(diameter_mm: f64, height_mm: f64, foot_mm: f64, wall: Wall) -> Self {
+        let (kind, shape, foot_ring_mm, thickness_mm) = (Kind::Bowl, Shape::Circle, FOOT_RING_MM, 4.0);
+        let (width_mm, well_mm) = (diameter_mm, foot_mm);
+        Self { kind, shape, diameter_mm, width_mm, height_mm, foot_mm, foot_ring_mm, well_mm, thickness_mm, wall }
+    }
+
+    /// Whether it is a surface of revolution.
+    #[must_use]
+    pub fn is_round(&self) -> bool {
+        self.shape == Shape::Circle
+    }
+
+    /// Its size along one of the directions that its shape has; none for the others, and for a height.
+    #[must_use]
+    pub fn across_mm(&self, quantity: Quantity) -> Option<f64> {
+        match (self.shape, quantity) {
+            (Shape::Circle, Quantity::Diameter) | (Shape::Rectangle, Quantity::Length) => Some(self.diameter_mm),
+            (Shape::Square | Shape::Rectangle, Quantity::Width) => Some(self.width_mm),
+            _ => None,
+        }
+    }
+
+    /// Height of the level at which the rim is widest: the rounded edge of what is turned lies half a thickness below the top.
     #[must_use]
     pub fn rim_level_mm(&self) -> f64 {
-        if self.kind == Kind::Box { self.height_mm } else { self.height_mm - 0.5 * self.thickness_mm }
+        if self.is_round() { self.height_mm - 0.5 * self.thickness_mm } else { self.height_mm }
     }
 
     /// Height and radius of the surface of food that fills it so far (from 0 to 1).
     #[must_use]
     pub fn filled_mm(&self, share: f64) -> [f64; 2] {
-        let floor = FOOT_RING_MM + self.thickness_mm;
+        let floor = self.foot_ring_mm + self.thickness_mm;
         let z = floor + share * (self.height_mm - floor);
         let inner = match self.kind {
-            Kind::Plate => 0.5 * self.well_mm * 0.9,
+            Kind::Plate => 0.5 * (self.well_mm - self.diameter_mm + self.width_mm) * 0.9,
             _ => self.wall_radius_mm(z) - self.thickness_mm,
         };
         [z, inner]
@@ -70,7 +104,8 @@ impl Ware {
     #[must_use]
     pub fn bodies(&self, at_mm: Point2<f64>, turn_rad: f64, material: &Material) -> Vec<Body> {
         match self.kind {
-            Kind::Box => self.box_bodies(at_mm, turn_rad, material),
+            Kind::Box => rectangular::tub(self, at_mm, turn_rad, material),
+            Kind::Plate if !self.is_round() => rectangular::plate(self, at_mm, turn_rad, material),
             Kind::Plate => vec![self.turned(at_mm, material, &self.plate_profile())],
             Kind::Bowl => vec![self.turned(at_mm, material, &self.bowl_profile())],
         }
@@ -83,7 +118,8 @@ impl Ware {
     /// Outer radius of a bowl's wall at a height.
     fn wall_radius_mm(&self, z_mm: f64) -> f64 {
         let (foot, rim) = (0.5 * self.foot_mm, 0.5 * self.diameter_mm);
-        let share = ((z_mm - FOOT_RING_MM) / (self.rim_level_mm() - FOOT_RING_MM)).clamp(0.0, 1.0);
+        let ring = self.foot_ring_mm;
+        let share = ((z_mm - ring) / (self.rim_level_mm() - ring)).clamp(0.0, 1.0);
         let reach = match self.wall {
             Wall::Straight => share,
             Wall::Curved(round) => (1.0 - round) * share + round * (1.0 - (1.0 - share).powi(2)).sqrt(),
@@ -97,9 +133,10 @@ impl Ware {
         let level = self.rim_level_mm();
         let height = |line: u32, from: f64| from + (level - from) * f64::from(line) / f64::from(WALL_LINES);
         let mut profile = vec![[foot - t, 0.0], [foot, 0.0]];
-        profile.extend((0..=WALL_LINES).map(|line| height(line, FOOT_RING_MM)).map(|z| [self.wall_radius_mm(z), z]));
+        profile
+            .extend((0..=WALL_LINES).map(|line| height(line, self.foot_ring_mm)).map(|z| [self.wall_radius_mm(z), z]));
         profile.extend(self.lip(0.5 * self.diameter_mm - 0.5 * t));
-        let floor = FOOT_RING_MM + t;
+        let floor = self.foot_ring_mm + t;
         let inside = (0..=WALL_LINES).rev().map(|line| height(line, floor));
         profile.extend(inside.map(|z| [(self.wall_radius_mm(z) - t).max(0.0), z]));
         profile.push([0.0, floor]);
@@ -109,8 +146,9 @@ impl Ware {
     /// From the foot ring along the underside, around the rim, down the flange to the well.
     fn plate_profile(&self) -> Vec<[f64; 2]> {
         let (foot, rim, well, t) = (0.5 * self.foot_mm, 0.5 * self.diameter_mm, 0.5 * self.well_mm, self.thickness_mm);
-        let (level, floor) = (self.rim_level_mm(), FOOT_RING_MM + t);
-        let mut profile = vec![[foot - 4.0, 0.0], [foot, 0.0], [foot + 2.0, FOOT_RING_MM]];
+        let (ring, level) = (self.foot_ring_mm, self.rim_level_mm());
+        let floor = ring + t;
+        let mut profile = vec![[foot - 4.0, 0.0], [foot, 0.0], [foot + 2.0, ring]];
         let has_flange = well < 0.95 * rim;
         if has_flange {
             let shoulder = floor + 0.55 * (self.height_mm - floor);
@@ -122,8 +160,7 @@ impl Ware {
             profile.extend(down.map(|share| [well * (1.0 - 0.16 * share), floor + (shoulder - floor) * fall(share)]));
         } else {
             let up = (1..WALL_LINES).map(|line| f64::from(line) / f64::from(WALL_LINES));
-            let side =
-                |share: f64| [foot + (rim - foot) * share, FOOT_RING_MM + (level - FOOT_RING_MM) * share.powf(1.6)];
+            let side = |share: f64| [foot + (rim - foot) * share, ring + (level - ring) * share.powf(1.6)];
             profile.extend(up.clone().map(side));
             profile.extend(self.lip(rim - 0.5 * t));
             profile.extend(up.rev().map(side).map(|[r, z]| [r - 0.3 * t, z + t]));
@@ -137,25 +174,5 @@ impl Ware {
         let half = 0.5 * self.thickness_mm;
         let angle = |line: u32| f64::from(line) / f64::from(LIP_LINES) * std::f64::consts::PI;
         (0..=LIP_LINES).map(angle).map(|a| [radius_mm + half * a.cos(), self.rim_level_mm() + half * a.sin()]).collect()
-    }
-
-    /// Four walls and a floor.
-    fn box_bodies(&self, at_mm: Point2<f64>, turn_rad: f64, material: &Material) -> Vec<Body> {
-        let (x, y, z, t) = (0.5 * self.diameter_mm, 0.5 * self.width_mm, 0.5 * self.height_mm, 0.5 * self.thickness_mm);
-        let parts = [
-            ([x - t, 0.0, z], [t, y, z]),
-            ([t - x, 0.0, z], [t, y, z]),
-            ([0.0, y - t, z], [x, t, z]),
-            ([0.0, t - y, z], [x, t, z]),
-            ([0.0, 0.0, t], [x, y, t]),
-        ];
-        let turn = nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), turn_rad);
-        let place = |center: [f64; 3]| Point3::new(at_mm.x, at_mm.y, 0.0) + turn * Vector3::from(center);
-        parts
-            .map(|(center, half)| Body {
-                form: Form::Cuboid { center: place(center), half: Vector3::from(half), turn_rad },
-                material: material.clone(),
-            })
-            .to_vec()
     }
 }

@@ -8,6 +8,7 @@ use super::catalogue::WARES;
 use super::frame::{Frame, Placed};
 use super::plan::{Plan, Use, random};
 use super::things::Vessel;
+use super::walk::Walk;
 use super::{sway, table, things};
 use crate::sensors::{HeadPose, Motion};
 use crate::world::{Rgb, World};
@@ -18,8 +19,17 @@ const PERIOD_S: f64 = 10.0;
 /// Between two pictures the head takes so long to turn.
 const TURN_S: f64 = 3.0;
 
-/// Pitch wanders between these.
-const PITCHES_DEG: (f64, f64) = (20.0, 80.0);
+/// Eyes turn to the plate and wander from it.
+const WALK: Walk = Walk {
+    first_pitch_deg: (40.0, 65.0),
+    pitch_deg: (20.0, 80.0),
+    rest_pitch_deg: 54.0,
+    pitch_step_deg: 22.0,
+    first_height_mm: (360.0, 500.0),
+    height_mm: (330.0, 520.0),
+    height_step_mm: 20.0,
+    roll_deg: (-8.0, 8.0),
+};
 /// Sway of the head while it rests, in degrees.
 const SWAY_DEG: f64 = 0.25;
 /// Share of a session's pictures before the meal is on the table, and after it is taken away.
@@ -33,10 +43,11 @@ pub fn worn(seed: u64, width_px: u32, sessions: usize, images: usize) -> Vec<Pla
     (0..sessions).map(|number| session(seed, width_px, number, images)).collect()
 }
 
-fn session(seed: u64, width_px: u32, number: usize, images: usize) -> Plan {
+/// One of them.
+pub(super) fn session(seed: u64, width_px: u32, number: usize, images: usize) -> Plan {
     let mut lot = random(seed, Use::Scene, number);
     let meal = Meal::laid(&mut lot);
-    let heads = wandering(&mut random(seed, Use::Head, number), images);
+    let heads = WALK.poses(&mut random(seed, Use::Head, number), images);
     let rests = heads.iter().enumerate().map(|(at, head)| (time_s(at), *head)).collect();
     let motion = Motion { rests, half_rest_s: 0.5 * (PERIOD_S - TURN_S) };
     let frames = heads.iter().enumerate().map(|(at, head)| {
@@ -46,6 +57,7 @@ fn session(seed: u64, width_px: u32, number: usize, images: usize) -> Plan {
     Plan {
         name: format!("worn-{:03}", number + 1),
         setup: None,
+        participant: Some(format!("P{:03}", number + 1)),
         frames: frames.collect(),
         motion,
         sway_deg: SWAY_DEG,
@@ -56,23 +68,6 @@ fn session(seed: u64, width_px: u32, number: usize, images: usize) -> Plan {
 #[expect(clippy::cast_precision_loss, reason = "some thousand images")]
 fn time_s(at: usize) -> f64 {
     FIRST_S + PERIOD_S * at as f64
-}
-
-/// Poses of the head: the pitch is drawn to the plate and wanders from it (a bounded walk).
-fn wandering(random: &mut ChaCha8Rng, images: usize) -> Vec<HeadPose> {
-    let mut pitch_deg: f64 = random.random_range(40.0..65.0);
-    let mut height_mm: f64 = random.random_range(360.0..500.0);
-    let pose = |_| {
-        pitch_deg += 0.3 * (54.0 - pitch_deg) + random.random_range(-22.0..22.0);
-        pitch_deg = pitch_deg.clamp(PITCHES_DEG.0, PITCHES_DEG.1);
-        height_mm = (height_mm + random.random_range(-20.0..20.0)).clamp(330.0, 520.0);
-        HeadPose {
-            pitch_deg,
-            roll_deg: random.random_range(-8.0..8.0),
-            range_mm: height_mm / pitch_deg.to_radians().sin(),
-        }
-    };
-    (0..images).map(pose).collect()
 }
 
 /// A laid table.
@@ -150,12 +145,12 @@ impl Meal {
                 near.y - random.random_range(0.1..0.7) * radius,
                 height + random.random_range(8.0..60.0),
             );
-            world.bodies.extend(things::hand(random, tip, elbow, self.skin));
+            world.bodies.extend(things::Hand::drawn(random, tip, elbow, self.skin).bodies());
             if random.random_bool(0.5) {
                 let turn = std::f64::consts::FRAC_PI_2 * (1.0 + side * random.random_range(0.2..0.7));
                 let grip = tip - Vector3::new(0.0, 60.0, -20.0);
                 let rise = random.random_range(-0.5..0.0);
-                world.bodies.extend(things::cutlery(random, grip, turn, rise));
+                world.bodies.extend(things::Cutlery::drawn(random, grip, turn, rise).bodies());
             }
         }
     }
@@ -163,5 +158,5 @@ impl Meal {
 
 fn place(at: usize, at_mm: Point2<f64>) -> Placed {
     let (object, ware) = WARES[at];
-    Placed { object, ware, at_mm, turn_rad: 0.0 }
+    Placed { object: object.into(), ware, at_mm, turn_rad: 0.0 }
 }

@@ -17,21 +17,21 @@ mod tests;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use model::results::TruthRow;
 use rayon::prelude::*;
 use serde::Serialize;
 
 pub use damage::Damage;
 pub use options::LargeOptions;
 
-use crate::Summary;
 use crate::error::SimulateError;
 use crate::render::Renderer;
-use crate::study::StudyFolder;
+use crate::study::{Simulated, StudyFolder, Summary};
 use camera::{camera_of, camera_toml};
 use gallery::{Gallery, Noise};
 use objects::OBJECTS;
 use plan::{Session, Use, random};
-use session::{SessionWriter, TruthRow};
+use session::SessionWriter;
 
 const CAMERA_FILE: &str = "devices/large-camera.toml";
 
@@ -63,7 +63,7 @@ pub fn large(
     out: &Path,
     options: &LargeOptions,
     progress: &(dyn Fn(u64, u64) + Sync),
-) -> Result<Summary, SimulateError> {
+) -> Result<Simulated, SimulateError> {
     options.check()?;
     let camera_file = camera_toml(options.size_px);
     let camera = camera_of(&camera_file)?;
@@ -87,10 +87,9 @@ pub fn large(
         truth.extend(of_object.into_par_iter().map(write).collect::<Result<Vec<_>, SimulateError>>()?);
     }
     truth.sort_by_key(|(number, _)| *number);
-    let rows: Vec<TruthRow> = truth.into_iter().flat_map(|(_, rows)| rows).collect();
-    folder.write_csv("truth.csv", &rows)?;
-    let mark_files = rows.iter().filter(|row| row.marked).count();
-    Ok(Summary { sessions: sessions.len(), images: rows.len(), mark_files })
+    let truth: Vec<TruthRow> = truth.into_iter().flat_map(|(_, rows)| rows).collect();
+    let mark_files = truth.iter().filter(|row| row.marked).count();
+    Ok(Simulated { summary: Summary { sessions: sessions.len(), images: truth.len(), mark_files }, truth })
 }
 
 fn write_study_files(folder: &StudyFolder, camera_file: &str, sessions: &[Session]) -> Result<(), SimulateError> {

@@ -15,7 +15,7 @@ const FOOT_SHARE: f64 = 0.6;
 pub(super) struct Object {
     pub name: &'static str,
     pub kind: Kind,
-    shape: Shape,
+    pub shape: Shape,
     /// The size across that is marked: diameter, side, or long side.
     span_mm: f64,
     /// Short side, of a rectangle.
@@ -50,7 +50,7 @@ pub(super) const OBJECTS: [Object; 5] = [
     },
 ];
 
-/// True sizes, as in objects.csv and truth.csv.
+/// True sizes, as in objects.csv and truth.parquet.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(super) struct TrueSizes {
     pub true_diameter_mm: Option<f64>,
@@ -77,7 +77,7 @@ impl Object {
     pub(super) fn row(&self) -> ObjectRow {
         let TrueSizes { true_diameter_mm, true_width_mm, true_length_mm, true_height_mm } = self.true_sizes();
         ObjectRow {
-            object: self.name,
+            object: self.name.to_owned(),
             kind: self.kind,
             shape: self.shape,
             true_diameter_mm,

@@ -1,7 +1,8 @@
 //! A session's plan -> the files of its card and its marks.
 
+use model::UtcNs;
+use model::results::TruthRow;
 use rand_chacha::ChaCha8Rng;
-use serde::Serialize;
 
 use super::damage::{Damage, Sensor, SessionFile};
 use super::gallery::{Gallery, Noise};
@@ -10,28 +11,11 @@ use super::options::LargeOptions;
 use super::plan::{Session, Shot, Use, image_time_s, motion, random};
 use crate::error::SimulateError;
 use crate::render::Picture;
-use crate::sensors::Recording;
+use crate::sensors::{HeadPose, Recording};
 use crate::study::{StudyFolder, image_stem, labelme_json};
 
 /// The one rater.
 const RATER: &str = "R1";
-
-/// A row of truth.csv: an image as it was taken, before any damage.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct TruthRow {
-    session: String,
-    participant: String,
-    image: String,
-    pitch_deg: f64,
-    roll_deg: f64,
-    range_mm: f64,
-    pub marked: bool,
-    object: &'static str,
-    true_diameter_mm: Option<f64>,
-    true_width_mm: Option<f64>,
-    true_length_mm: Option<f64>,
-    true_height_mm: Option<f64>,
-}
 
 /// Writes the sessions of one container.
 pub(super) struct SessionWriter<'a> {
@@ -92,7 +76,8 @@ impl SessionWriter<'_> {
         light: &mut ChaCha8Rng,
     ) -> Result<TruthRow, SimulateError> {
         let sight = &self.gallery.sights[shot.sight];
-        let stem = image_stem(session.start().plus_seconds(image_time_s(at)))?;
+        let time_utc = session.start().plus_seconds(image_time_s(at));
+        let stem = image_stem(time_utc)?;
         let image = format!("IMAGES/{stem}.JPG");
         let path = format!("cards/{}/{image}", session.name);
         let mut picture = self.noise.taken_anew(&sight.picture, light);
@@ -104,25 +89,25 @@ impl SessionWriter<'_> {
             let json = labelme_json(&format!("../../../{path}"), self.options.size_px, &sight.marks)?;
             files.write(SessionFile::Marks, &format!("marks/{RATER}/{}/{stem}.json", session.name), json)?;
         }
-        Ok(self.truth(session, shot, image))
+        Ok(self.truth(session, shot, &image, time_utc))
     }
 
-    fn truth(&self, session: &Session, shot: &Shot, image: String) -> TruthRow {
-        let head = self.gallery.sights[shot.sight].head;
+    /// What is true of an image as it was taken, before any damage.
+    fn truth(&self, session: &Session, shot: &Shot, image: &str, time_utc: UtcNs) -> TruthRow {
+        let HeadPose { pitch_deg, roll_deg, range_mm } = self.gallery.sights[shot.sight].head;
         let TrueSizes { true_diameter_mm, true_width_mm, true_length_mm, true_height_mm } = self.object.true_sizes();
         TruthRow {
-            session: session.name.clone(),
-            participant: session.participant.clone(),
-            image,
-            pitch_deg: head.pitch_deg,
-            roll_deg: head.roll_deg,
-            range_mm: head.range_mm,
-            marked: shot.marked,
-            object: self.object.name,
+            participant: Some(session.participant.clone()),
+            object: Some(self.object.name.to_owned()),
+            kind: Some(self.object.kind),
+            shape: Some(self.object.shape),
             true_diameter_mm,
             true_width_mm,
             true_length_mm,
             true_height_mm,
+            turn_deg: Some(0.0),
+            marked: shot.marked,
+            ..TruthRow::of_image(&session.name, image, time_utc, [pitch_deg, roll_deg, range_mm])
         }
     }
 }

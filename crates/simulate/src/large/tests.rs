@@ -17,12 +17,7 @@ const SMALL: LargeOptions = LargeOptions { seed: 7, sessions: 12, images: 4, siz
 type Files = BTreeMap<PathBuf, Vec<u8>>;
 
 fn study(options: &LargeOptions) -> Files {
-    let folder = tempfile::tempdir().unwrap();
-    let root = folder.path().join("study");
-    large(&root, options, &|_, _| {}).unwrap();
-    let mut files = Files::new();
-    read_below(&root, &root, &mut files);
-    files
+    written(options).0
 }
 
 fn read_below(root: &Path, folder: &Path, files: &mut Files) {
@@ -36,6 +31,15 @@ fn read_below(root: &Path, folder: &Path, files: &mut Files) {
     }
 }
 
+fn written(options: &LargeOptions) -> (Files, Vec<TruthRow>) {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().join("study");
+    let truth = large(&root, options, &|_, _| {}).unwrap().truth;
+    let mut files = Files::new();
+    read_below(&root, &root, &mut files);
+    (files, truth)
+}
+
 fn column(files: &Files, table: &str, column: &str) -> Vec<String> {
     let mut reader = csv::Reader::from_reader(files[Path::new(table)].as_slice());
     let at = reader.headers().unwrap().iter().position(|name| name == column).unwrap();
@@ -46,7 +50,7 @@ fn column(files: &Files, table: &str, column: &str) -> Vec<String> {
 fn the_same_seed_gives_the_same_bytes_for_any_number_of_threads_and_another_seed_does_not() {
     let with_threads = |threads: usize, options: LargeOptions| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| study(&options))
+        pool.install(|| written(&options))
     };
     let one = with_threads(1, SMALL);
     assert!(one == with_threads(3, SMALL));
@@ -151,11 +155,11 @@ fn marks_measured_by_the_true_pose_give_the_true_sizes() {
 #[test]
 fn pictures_have_the_camera_s_size_and_truth_names_each_of_them() {
     let options = LargeOptions { damage_pct: 0.0, size_px: [90, 50], ..SMALL };
-    let files = study(&options);
+    let (files, truth) = written(&options);
     let camera = String::from_utf8(files[Path::new(CAMERA_FILE)].clone()).unwrap();
     assert_eq!(camera_of(&camera).unwrap().size_px(), [90, 50]);
-    let names = column(&files, "truth.csv", "session").into_iter().zip(column(&files, "truth.csv", "image"));
-    let named: Vec<PathBuf> = names.map(|(session, image)| PathBuf::from(format!("cards/{session}/{image}"))).collect();
+    let named: Vec<PathBuf> =
+        truth.iter().map(|row| PathBuf::from(format!("cards/{}/{}", row.session, row.image))).collect();
     let pictures: Vec<&PathBuf> = files.keys().filter(|path| path.extension().is_some_and(|e| e == "JPG")).collect();
     assert_eq!(named.iter().collect::<Vec<_>>(), pictures);
     for path in pictures {

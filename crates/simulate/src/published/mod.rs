@@ -20,7 +20,7 @@ use model::Camera;
 
 use crate::error::SimulateError;
 use crate::render::Renderer;
-use crate::study::StudyFolder;
+use crate::study::{StudyFolder, Summary};
 use card::CardWriter;
 use plan::SessionPlan;
 use tables::Published;
@@ -39,17 +39,6 @@ impl Default for Options {
     fn default() -> Self {
         Self { seed: 1, render: true }
     }
-}
-
-/// What was written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Summary {
-    /// Sessions.
-    pub sessions: usize,
-    /// Images that the marks refer to (and, if drawn, that are on the cards).
-    pub images: usize,
-    /// Files of marks.
-    pub mark_files: usize,
 }
 
 const CAMERA_FILE: &str = "devices/bench-camera.toml";

@@ -3,10 +3,12 @@
 mod folder;
 mod labelme;
 mod object_row;
+mod simulated;
 
 pub use folder::StudyFolder;
 pub use labelme::{LabeledLine, labelme_json};
 pub use object_row::ObjectRow;
+pub use simulated::{Simulated, Summary};
 
 use jiff::Timestamp;
 use model::UtcNs;

@@ -7,7 +7,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ObjectRow {
     /// Its name.
-    pub object: &'static str,
+    pub object: String,
     /// Plate, bowl or box.
     pub kind: Kind,
     /// Its outline.

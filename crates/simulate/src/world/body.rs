@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
+use super::convex::Convex;
 use super::texture::Texture;
 use super::turned::Turned;
 use crate::scene::Ray;
@@ -20,6 +21,8 @@ pub struct Body {
 pub enum Form {
     /// Turned about an upright axis.
     Turned(Turned),
+    /// Within six planes.
+    Convex(Convex),
     /// All points within `radius` of a line.
     Capsule {
         /// The line's ends.
@@ -92,6 +95,7 @@ impl Body {
         }
         match &self.form {
             Form::Turned(turned) => turned.touch(ray, least),
+            Form::Convex(convex) => convex.touch(ray, least),
             Form::Capsule { ends, radius } => capsule(ray, *ends, *radius, least),
             Form::Cuboid { center, half, turn_rad } => cuboid(ray, *center, *half, *turn_rad, least),
             Form::Ellipsoid { center, half, turn_rad } => ellipsoid(ray, *center, *half, *turn_rad, least),
@@ -102,6 +106,7 @@ impl Body {
     pub(super) fn ball(&self) -> (Point3<f64>, f64) {
         match &self.form {
             Form::Turned(turned) => turned.ball(),
+            Form::Convex(convex) => (convex.center, convex.reach_mm),
             Form::Capsule { ends: [a, b], radius } => (nalgebra::center(a, b), 0.5 * (a - b).norm() + radius),
             Form::Cuboid { center, half, .. } => (*center, half.norm()),
             Form::Ellipsoid { center, half, .. } => (*center, half.max()),
@@ -112,6 +117,7 @@ impl Body {
     pub(super) fn own(&self, point: Point3<f64>) -> Point3<f64> {
         match &self.form {
             Form::Turned(turned) => point - turned.axis_mm().coords.push(0.0),
+            Form::Convex(convex) => Point3::from(turn(-convex.turn_rad) * (point - convex.center)),
             Form::Capsule { .. } => point,
             Form::Cuboid { center, turn_rad, .. } | Form::Ellipsoid { center, turn_rad, .. } => {
                 Point3::from(turn(-turn_rad) * (point - center))
@@ -120,7 +126,7 @@ impl Body {
     }
 }
 
-fn turn(turn_rad: f64) -> Rotation3<f64> {
+pub(super) fn turn(turn_rad: f64) -> Rotation3<f64> {
     Rotation3::from_axis_angle(&Vector3::z_axis(), turn_rad)
 }
 

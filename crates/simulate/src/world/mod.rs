@@ -5,6 +5,7 @@
 
 mod body;
 mod chance;
+mod convex;
 mod light;
 pub mod photo;
 #[cfg(test)]
@@ -16,6 +17,7 @@ use nalgebra::{Point2, Point3, Vector3};
 
 use body::Touch;
 pub use body::{Body, Form, Material};
+pub use convex::Convex;
 pub use light::Light;
 pub use texture::Texture;
 pub use turned::Turned;

@@ -1,0 +1,131 @@
+//! What a file of another annotation tool holds, before anybody knows what it means for a study.
+
+use std::collections::BTreeMap;
+
+/// A file that has been read.
+#[derive(Debug, Default, PartialEq)]
+pub struct Foreign {
+    /// Pictures in file order, with what is marked on them.
+    pub images: Vec<ForeignImage>,
+    /// What belongs to no picture, or could not be read.
+    pub refused: Vec<Refused>,
+}
+
+/// Something that was left out, and why.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refused {
+    /// Where it stands: a line, an id, an image.
+    pub place: String,
+    /// What is wrong (expected and got) and what to do about it.
+    pub fact: String,
+}
+
+/// A picture that somebody marked.
+#[derive(Debug, PartialEq)]
+pub struct ForeignImage {
+    /// Where it stands in the file.
+    pub place: String,
+    /// Its name, often with folders.
+    pub name: String,
+    /// Width and height as the tool saw them.
+    pub size_px: Option<[u32; 2]>,
+    /// What is drawn on it, in file order.
+    pub annotations: Vec<Annotation>,
+}
+
+/// One thing drawn on a picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Annotation {
+    /// Where it stands in the file.
+    pub place: String,
+    /// CVAT's label, COCO's category.
+    pub label: String,
+    /// Its attributes.
+    pub attributes: BTreeMap<String, String>,
+    /// The drawing.
+    pub drawn: Drawn,
+}
+
+/// A drawing. Pixels are the tool's own: x to the right, y down, (0, 0) at the corner of the first pixel.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Drawn {
+    /// Points in order.
+    Points {
+        /// How they hang together.
+        form: Form,
+        /// The points.
+        points_px: Vec<[f64; 2]>,
+    },
+    /// Points with names: a skeleton of CVAT, keypoints of COCO.
+    Named(Vec<NamedPoint>),
+    /// An ellipse.
+    Ellipse(Ellipse),
+    /// Something that gives no marks, and why.
+    Unusable(String),
+}
+
+/// How points hang together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// A closed line.
+    Polygon,
+    /// An open line.
+    Polyline,
+    /// Not at all.
+    Loose,
+}
+
+/// A point with a name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedPoint {
+    /// Its name in the skeleton.
+    pub name: String,
+    /// Where it is.
+    pub point_px: [f64; 2],
+    /// Whether it was seen.
+    pub sight: Sight,
+}
+
+/// Whether a named point was seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sight {
+    /// COCO's visibility 2.
+    Seen,
+    /// Placed where something hides it: COCO's 1, CVAT's `occluded`.
+    Hidden,
+    /// Not there: COCO's 0, CVAT's `outside`.
+    Absent,
+}
+
+/// An ellipse.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ellipse {
+    /// Its centre.
+    pub centre_px: [f64; 2],
+    /// Half axes along x and y, before it is turned.
+    pub half_axes_px: [f64; 2],
+    /// Turned clockwise about its centre, as one sees it.
+    pub rotation_rad: f64,
+}
+
+impl Ellipse {
+    /// Points at even steps of its parameter, beginning at the end of the first half axis.
+    #[must_use]
+    pub fn points_px(&self, count: u32) -> Vec<[f64; 2]> {
+        let ([cx, cy], [rx, ry]) = (self.centre_px, self.half_axes_px);
+        let (sin, cos) = self.rotation_rad.sin_cos();
+        let at = |i: u32| {
+            let (s, c) = (std::f64::consts::TAU * f64::from(i) / f64::from(count)).sin_cos();
+            [cx + rx * c * cos - ry * s * sin, cy + rx * c * sin + ry * s * cos]
+        };
+        (0..count).map(at).collect()
+    }
+}
+
+/// As much of a text from outside as a message can hold, on one line.
+pub(super) fn short(text: &str) -> String {
+    const MOST: usize = 60;
+    let start: String = text.chars().take(MOST).collect();
+    let more = if start.len() < text.len() { "..." } else { "" };
+    format!("{}{more}", start.escape_debug())
+}

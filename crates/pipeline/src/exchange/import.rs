@@ -1,0 +1,297 @@
+//! Marks of another tool become LabelMe files, `FOLDER/RATER/SESSION/IMAGE.json`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use super::convert::{Made, marks_of};
+use super::foreign::{ForeignImage, Refused, short};
+use super::label::Names;
+use super::pictures::{Picture, Pictures};
+use super::{ExchangeError, read};
+use crate::labelme::{self, MarksError, OutShape};
+use crate::session::{AUTO, Prepared, stem_of};
+use crate::study::{SessionDir, Study};
+use crate::write_marks::{picture_for, write_whole};
+
+/// How marks are carried over.
+#[derive(Debug, Clone)]
+pub struct ImportOptions {
+    /// Who made the marks.
+    pub rater: String,
+    /// Folder of marks of all raters.
+    pub folder: PathBuf,
+    /// The only session whose images are marked, where that is known.
+    pub session: Option<String>,
+    /// Labels of the file, each with the label that it stands for.
+    pub renamed: BTreeMap<String, String>,
+    /// Labels that are no marks, and are meant to be passed over.
+    pub ignored: BTreeSet<String>,
+    /// Whether named points are taken that are marked as hidden.
+    pub with_hidden: bool,
+    /// Whether files that hold other marks are written over.
+    pub force: bool,
+    /// Whether to write nothing.
+    pub dry_run: bool,
+    /// Program and version, for messages.
+    pub program: String,
+}
+
+/// What was carried over, and what was not.
+#[derive(Debug, Default, PartialEq)]
+pub struct Imported {
+    /// Marks in files that hold what was imported.
+    pub marks: usize,
+    /// Files that were written, or would be.
+    pub written: usize,
+    /// Files that held these marks already.
+    pub unchanged: usize,
+    /// Annotations passed over by [`ImportOptions::ignored`].
+    pub ignored: usize,
+    /// Annotations, images and files that were left out, in file order.
+    pub refused: Vec<Refused>,
+    /// What is worth knowing, by which nothing was lost.
+    pub notes: Vec<Refused>,
+}
+
+/// Writes the marks of `file` into LabelMe files. What cannot be used is told, and the rest is used.
+///
+/// # Errors
+/// [`ExchangeError`] where nothing of the file can be used, or a file cannot be written; what was written until then stays.
+pub fn import(study: &Study, file: &Path, options: &ImportOptions) -> Result<Imported, ExchangeError> {
+    if !is_rater(&options.rater) {
+        return Err(ExchangeError::Rater(options.rater.clone()));
+    }
+    check_session(study, options.session.as_deref())?;
+    let foreign = read(&labelme::read_bytes(file)?, file)?;
+    let import = Import {
+        names: Names::new(study.objects.keys(), options.renamed.clone()),
+        pictures: Pictures::list(study, options.session.as_deref(), &options.program),
+        options,
+    };
+    let mut imported = Imported { refused: foreign.refused, ..Imported::default() };
+    let mut marked: BTreeMap<&Picture, &str> = BTreeMap::new();
+    for image in &foreign.images {
+        match import.pictures.find(&image.name) {
+            Ok(picture) => match marked.insert(picture, &image.place) {
+                None => import.image(image, picture, &mut imported)?,
+                Some(_) if image.annotations.is_empty() => {}
+                Some(first) => {
+                    let fact = format!(
+                        "the same picture as another image of the file ({first}): {}",
+                        import.pictures.place(picture)
+                    );
+                    imported.refused.push(at_image(image, fact));
+                }
+            },
+            Err(_) if image.annotations.is_empty() => {}
+            Err(fact) => imported.refused.push(at_image(image, fact)),
+        }
+    }
+    Ok(imported)
+}
+
+fn at_image(image: &ForeignImage, fact: String) -> Refused {
+    let count = match image.annotations.len() {
+        1 => "1 annotation".to_owned(),
+        more => format!("{more} annotations"),
+    };
+    Refused { place: format!("{}, '{}' ({count})", image.place, short(&image.name)), fact }
+}
+
+fn check_session(study: &Study, session: Option<&str>) -> Result<(), ExchangeError> {
+    let with_card = || study.sessions.iter().filter(|dir| dir.card.is_some()).map(|dir| dir.name.as_str());
+    match session.filter(|session| with_card().all(|name| name != *session)) {
+        None => Ok(()),
+        Some(session) => {
+            let known = with_card().collect::<Vec<_>>().join(", ");
+            Err(ExchangeError::Session { session: session.to_owned(), known })
+        }
+    }
+}
+
+/// Whether a folder of marks may have this name.
+fn is_rater(name: &str) -> bool {
+    let odd = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
+    !(name.is_empty() || name.starts_with('.') || name.contains(odd) || name == AUTO)
+}
+
+struct Import<'a> {
+    names: Names,
+    pictures: Pictures<'a>,
+    options: &'a ImportOptions,
+}
+
+/// A mark, and where it stands.
+struct Placed {
+    place: String,
+    mark: Made,
+}
+
+impl Import<'_> {
+    fn image(&self, image: &ForeignImage, picture: &Picture, imported: &mut Imported) -> Result<(), ExchangeError> {
+        let Some(session) = self.pictures.sessions.get(picture.session) else { return Ok(()) };
+        let prepared = match &session.prepared {
+            Ok(prepared) => prepared,
+            Err(fact) => {
+                imported.refused.push(at_image(image, format!("session '{}': {fact}", session.dir.name)));
+                return Ok(());
+            }
+        };
+        let target = Target::new(self.options, session.dir, prepared, &picture.file);
+        let picture_px = target.picture_px();
+        if let Some([got_width, got_height]) = image.size_px.filter(|size_px| *size_px != picture_px) {
+            let [width, height] = picture_px;
+            let fact = format!(
+                "marked on a picture of {got_width} x {got_height} px, but the camera's are {width} x {height}: mark the \
+                 original pictures, or name the camera of the marked ones ([marks] camera in study.toml)"
+            );
+            imported.refused.push(at_image(image, fact));
+            return Ok(());
+        }
+        let placed = self.marks(image, picture_px, imported);
+        self.write(image, &target, placed, imported)
+    }
+
+    fn marks(&self, image: &ForeignImage, picture_px: [u32; 2], imported: &mut Imported) -> Vec<Placed> {
+        let mut placed = Vec::new();
+        for annotation in &image.annotations {
+            if self.options.ignored.contains(&annotation.label) {
+                imported.ignored += 1;
+                continue;
+            }
+            let place = format!("{}, '{}' on '{}'", annotation.place, short(&annotation.label), short(&image.name));
+            match marks_of(annotation, &self.names, picture_px, self.options.with_hidden) {
+                Ok(converted) => {
+                    let note = |fact| Refused { place: place.clone(), fact };
+                    imported.notes.extend(converted.notes.into_iter().map(note));
+                    placed.extend(converted.made.into_iter().map(|mark| Placed { place: place.clone(), mark }));
+                }
+                Err(fact) => imported.refused.push(Refused { place, fact }),
+            }
+        }
+        placed
+    }
+
+    /// Writes what LabelMe's reader takes: the same rules hold for marks of all tools.
+    fn write(
+        &self,
+        image: &ForeignImage,
+        target: &Target<'_>,
+        placed: Vec<Placed>,
+        imported: &mut Imported,
+    ) -> Result<(), ExchangeError> {
+        let (placed, marks) = accepted(placed, target, imported)?;
+        let there = target.marks_there()?;
+        if placed.is_empty() && there.is_none() {
+            return Ok(());
+        }
+        if there.as_ref() == Some(&There::Marks(marks.objects)) {
+            imported.unchanged += 1;
+            imported.marks += placed.len();
+            return Ok(());
+        }
+        let there_is = |fact: &str| Refused {
+            place: format!("{}: {}", image.place, target.path.display()),
+            fact: fact.to_owned(),
+        };
+        if placed.is_empty() {
+            let fact = "holds marks, of which this file has none; delete it if they are no longer wanted";
+            imported.notes.push(there_is(fact));
+            return Ok(());
+        }
+        if there.is_some() && !self.options.force {
+            imported.refused.push(there_is("holds other marks, and is left as it is; --force writes over it"));
+            return Ok(());
+        }
+        if !self.options.dry_run {
+            std::fs::create_dir_all(&target.folder).map_err(|source| target.failed(source))?;
+            let text = target.text(&placed)?;
+            write_whole(&target.path, &text).map_err(|source| target.failed(source))?;
+        }
+        imported.written += 1;
+        imported.marks += placed.len();
+        Ok(())
+    }
+}
+
+/// The marks that LabelMe's reader takes; what it refuses is told by the place in the file.
+fn accepted(
+    placed: Vec<Placed>,
+    target: &Target<'_>,
+    imported: &mut Imported,
+) -> Result<(Vec<Placed>, labelme::Marks), ExchangeError> {
+    let text = target.text(&placed)?;
+    let mut marks = labelme::parse(text.as_bytes(), &target.path, target.picture_px())?;
+    let mut refused = BTreeMap::new();
+    for error in std::mem::take(&mut marks.refused) {
+        if let MarksError::Shape { number, fact, .. } = error {
+            refused.insert(number, fact);
+        }
+    }
+    let mut kept = Vec::new();
+    for (number, placed) in (1..).zip(placed) {
+        match refused.remove(&number) {
+            Some(fact) => imported.refused.push(Refused { place: placed.place, fact }),
+            None => kept.push(placed),
+        }
+    }
+    Ok((kept, marks))
+}
+
+/// The LabelMe file of an image.
+struct Target<'a> {
+    folder: PathBuf,
+    path: PathBuf,
+    dir: &'a SessionDir,
+    prepared: &'a Prepared,
+    /// The picture on the card.
+    file: &'a str,
+}
+
+/// What a file holds already.
+#[derive(PartialEq)]
+enum There {
+    Marks(Vec<model::ObjectMarks>),
+    /// Something that cannot be read as marks.
+    Other,
+}
+
+impl<'a> Target<'a> {
+    fn new(options: &ImportOptions, dir: &'a SessionDir, prepared: &'a Prepared, file: &'a str) -> Self {
+        // The folder's own name, whatever bytes it consists of.
+        let session = dir.card.as_deref().and_then(Path::file_name).unwrap_or(dir.name.as_ref());
+        let folder = options.folder.join(&options.rater).join(session);
+        let path = folder.join(format!("{}.json", stem_of(file)));
+        Self { folder, path, dir, prepared, file }
+    }
+
+    fn picture_px(&self) -> [u32; 2] {
+        self.prepared.marks_camera.1.size_px()
+    }
+
+    /// The way to the picture is known once there is a folder for the marks.
+    fn text(&self, placed: &[Placed]) -> Result<String, ExchangeError> {
+        let shapes = placed.iter().map(|Placed { mark, .. }| {
+            let Made { label, shape_type, points_px } = mark;
+            OutShape::new(label.clone(), shape_type, points_px)
+        });
+        let picture = picture_for(&self.folder, self.dir, self.prepared, self.file);
+        let text = labelme::text_of_shapes(shapes.collect(), &picture, self.picture_px());
+        text.map_err(|error| self.failed(error.into()))
+    }
+
+    fn marks_there(&self) -> Result<Option<There>, ExchangeError> {
+        if !self.path.try_exists().map_err(|source| self.failed(source))? {
+            return Ok(None);
+        }
+        let bytes = labelme::read_bytes(&self.path)?;
+        Ok(Some(match labelme::parse(&bytes, &self.path, self.picture_px()) {
+            Ok(marks) if marks.refused.is_empty() => There::Marks(marks.objects),
+            Ok(_) | Err(_) => There::Other,
+        }))
+    }
+
+    fn failed(&self, source: std::io::Error) -> ExchangeError {
+        ExchangeError::Write { path: self.path.clone(), source }
+    }
+}

@@ -1,0 +1,115 @@
+//! Figures from the results alone, as SVG.
+//!
+//! A figure is a [`drawing`] (shapes and words at places on a page), made in a file of its own from rows ([`sample`]) with
+//! the help of [`scale`], [`panel`], [`grid`], [`marks`] and [`legend`], and written by one template
+//! (templates/figure.svg), which escapes every word. No figure has styles of its own: colours are attributes, text has
+//! the colour and the font of the page around it. What each shows, and how its statistics are defined: docs/figures.md.
+
+mod bland_altman;
+mod by_setup;
+mod calibration;
+mod coverage;
+mod drawing;
+mod envelope;
+mod flow;
+mod flow_text;
+mod grid;
+mod legend;
+mod marks;
+mod panel;
+mod pitch_and_range;
+mod sample;
+mod scale;
+mod selected;
+mod settings;
+mod sizes;
+mod words;
+mod write;
+
+use model::FrameRow;
+
+use crate::figure::Figure;
+use crate::parquet::Results;
+use drawing::Drawing;
+
+pub use flow_text::flow_bars;
+pub use write::write_figures;
+
+/// Why figures of errors are not there.
+const NO_TRUTH: &str = "no size has a true size to compare with";
+
+/// The figures of a run, and those for which it has no data.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Figures {
+    /// Those that could be drawn, in the order in which a report shows them.
+    pub drawn: Vec<Figure>,
+    /// Those that could not.
+    pub left_out: Vec<FigureLeftOut>,
+    /// The sentence that the study wants every report to carry.
+    pub statement: Option<String>,
+    /// The drawn ones as files of their own.
+    standalone: Vec<String>,
+}
+
+/// A figure for which there are no data.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FigureLeftOut {
+    /// Stem of the name that its file would have.
+    pub name: &'static str,
+    /// Heading.
+    pub title: &'static str,
+    /// What is missing, as a part of a sentence.
+    pub reason: &'static str,
+}
+
+/// What became of a figure.
+enum Made {
+    Drawn { name: &'static str, title: &'static str, captions: [String; 2], drawing: Drawing },
+    LeftOut(FigureLeftOut),
+}
+
+impl Made {
+    /// With its caption and its words for those who do not see it.
+    const fn drawn(name: &'static str, title: &'static str, captions: [String; 2], drawing: Drawing) -> Self {
+        Self::Drawn { name, title, captions, drawing }
+    }
+
+    const fn left_out(name: &'static str, title: &'static str, reason: &'static str) -> Self {
+        Self::LeftOut(FigureLeftOut { name, title, reason })
+    }
+}
+
+/// Draws the figures of a run from its rows and from the ledger of its images (empty where there is none).
+///
+/// Each SVG takes its text's colour and font from the page that it stands in. The same results give the same bytes.
+#[must_use]
+pub fn figures(results: &Results, frames: &[FrameRow]) -> Figures {
+    let mut figures = Figures { statement: results.metadata.statement.clone(), ..Figures::default() };
+    for made in all(results, frames) {
+        match made {
+            Made::Drawn { name, title, captions: [caption, alt], drawing } => {
+                let [svg, standalone] =
+                    [false, true].map(|standalone| drawing::svg(&drawing, [name, title, &alt], standalone));
+                let (name, title) = (name.to_owned(), title.to_owned());
+                figures.drawn.push(Figure { name, title, caption, alt, svg });
+                figures.standalone.push(standalone);
+            }
+            Made::LeftOut(left_out) => figures.left_out.push(left_out),
+        }
+    }
+    figures
+}
+
+fn all(results: &Results, frames: &[FrameRow]) -> Vec<Made> {
+    vec![
+        flow::made(frames),
+        pitch_and_range::made(results, frames),
+        selected::made(frames),
+        by_setup::by_pitch(results),
+        by_setup::by_height(results),
+        bland_altman::made(results),
+        coverage::made(results),
+        calibration::made(results),
+        sizes::made(results),
+    ]
+}

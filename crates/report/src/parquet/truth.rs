@@ -1,0 +1,34 @@
+//! `truth.parquet`: what is true of a simulated study.
+
+use std::path::Path;
+
+use model::results::{TRUTH_SCHEMA_VERSION, TruthRow};
+
+use super::VERSION_KEY;
+use super::read::{ReadError, read_rows_and};
+use super::row_file::RowFile;
+use super::sink::SinkError;
+
+/// Key of what the study was made from, as JSON.
+const MADE_KEY: &str = "aim_batch.simulate";
+
+/// Writes rows to `path`, in their order: zstd, the same bytes for the same rows and origin, aside first and then renamed.
+/// `made_from`: what the study was made from, JSON; it goes into the metadata as `aim_batch.simulate`.
+///
+/// # Errors
+/// [`SinkError`] when the file cannot be written; an earlier one is then as it was.
+pub fn write_truth(path: &Path, rows: Vec<TruthRow>, made_from: &str) -> Result<(), SinkError> {
+    let mut file = RowFile::create(path)?;
+    file.push(rows)?;
+    file.seal(&[(VERSION_KEY, TRUTH_SCHEMA_VERSION.to_string()), (MADE_KEY, made_from.to_owned())])?;
+    Ok(file.put_in_place()?)
+}
+
+/// Reads what [`write_truth`] wrote: the rows, and what the study was made from.
+///
+/// # Errors
+/// [`ReadError`]: no such file, not Parquet, not a truth of this program's version, a missing column, or a column or cell of
+/// another type.
+pub fn read_truth(path: &Path) -> Result<(Vec<TruthRow>, String), ReadError> {
+    read_rows_and(path, TRUTH_SCHEMA_VERSION, MADE_KEY, Ok)
+}
