@@ -13,7 +13,7 @@ use std::io::Write as _;
 
 use ingest::Picture;
 use model::{Container, InputSigma, Kind, Method, Quantity, Shape, View};
-use nalgebra::Point2;
+use nalgebra::{Point2, Point3};
 use rayon::prelude::*;
 use simulate::laid::{self, Frame, Truth};
 
@@ -25,6 +25,9 @@ const LEAST_CONFIDENCE: f64 = 0.5;
 const RIGHT: f64 = 0.12;
 /// A container is in view if so much of its rim is in the picture and seen.
 const IN_VIEW: f64 = 0.6;
+/// A foot shows if so much of its circle is seen; of as many places.
+const FOOT_SEEN: f64 = 0.15;
+const PLACES: u32 = 72;
 /// The selection's window of pitch.
 const WINDOW_DEG: (f64, f64) = (47.5, 62.5);
 
@@ -34,6 +37,8 @@ struct Case {
     kind: Kind,
     pitch_deg: f64,
     in_view: bool,
+    /// Whether some of the foot is seen below the rim.
+    shows_foot: bool,
     found: Option<Found>,
 }
 
@@ -44,8 +49,12 @@ struct Found {
     diameter: f64,
     /// With nothing given: plates on the table, bowls at the height found.
     diameter_alone: f64,
+    /// Height of the rim.
     height: f64,
-    from_foot: bool,
+    /// The same in its standard uncertainties.
+    height_sigmas: f64,
+    /// Not only what is common.
+    is_height_seen: bool,
 }
 
 /// Which cases a line of a table counts.
@@ -126,6 +135,7 @@ fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
             kind: truth.kind,
             pitch_deg: frame.head.pitch_deg,
             in_view: truth.rim_seen >= IN_VIEW,
+            shows_foot: foot_seen(frame, truth.object, view) >= FOOT_SEEN,
             found: best.and_then(|rim| found(rim, truth, view)),
         }
     });
@@ -145,6 +155,19 @@ fn jpeg(frame: &Frame, view: &View, name: &str) -> Result<Vec<u8>, String> {
             Ok(jpeg)
         }
     }
+}
+
+/// Share of the foot's circle on the table that is seen.
+fn foot_seen(frame: &Frame, object: &str, view: &View) -> f64 {
+    let Some(placed) = frame.placed.iter().find(|placed| placed.object == object) else { return 0.0 };
+    let (stand, up) = (frame.stand.0, view.pose().camera_height_mm());
+    let places = (0..PLACES).map(|i| f64::from(i) / f64::from(PLACES) * std::f64::consts::TAU);
+    let seen = places.filter(|angle| {
+        let out = 0.5 * placed.ware.foot_mm;
+        let at = Point3::new(placed.at_mm.x + out * angle.cos(), placed.at_mm.y + out * angle.sin(), 0.5);
+        frame.world.is_seen(Point3::new(stand.x, stand.y, up), at, 2.0)
+    });
+    seen.count() as f64 / f64::from(PLACES)
 }
 
 /// Whether a rim is a level circle of a drinking glass: its rim, its foot, or what it holds.
@@ -187,7 +210,8 @@ fn found(rim: &Rim, truth: &Truth, view: &View) -> Option<Found> {
         diameter: size_mm(Some(truth.rim_level_mm))? / truth_mm - 1.0,
         diameter_alone: size_mm(None)? / truth_mm - 1.0,
         height: height.mm / truth.rim_level_mm - 1.0,
-        from_foot: height.source != HeightSource::Common,
+        height_sigmas: (height.mm - truth.rim_level_mm) / height.sigma_mm,
+        is_height_seen: height.source != HeightSource::Common,
     })
 }
 
@@ -211,6 +235,12 @@ fn summary(name: &str, reports: &[Report]) -> String {
     for object in objects {
         text += &line(object, &cases.iter().filter(|case| case.object == object).collect::<Vec<_>>());
     }
+    let bowls = |shows: bool| -> Vec<&Case> {
+        cases.iter().copied().filter(|case| case.kind == Kind::Bowl && case.shows_foot == shows).collect()
+    };
+    text += &heights("bowls whose foot shows", &bowls(true));
+    text += &heights("bowls whose foot is hidden", &bowls(false));
+    text += &heights("plates", &cases.iter().copied().filter(|case| case.kind == Kind::Plate).collect::<Vec<_>>());
     let is_false = |rim: &Judged| rim.confidence >= LEAST_CONFIDENCE && !rim.is_right && !rim.is_cup;
     let false_in = |report: &&Report| report.rims.iter().any(is_false);
     let bare: Vec<&Report> = reports.iter().filter(|report| report.is_bare).collect();
@@ -236,15 +266,31 @@ fn line(label: &str, cases: &[&&Case]) -> String {
     let of = |size: &dyn Fn(&Found) -> f64| quantiles(found.iter().map(|f| size(f).abs()).collect());
     let diameters: Vec<f64> = found.iter().map(|f| f.diameter).collect();
     let signed = quantile(&diameters, 0.5).map_or_else(|| "-".to_owned(), |median| format!("{:+.2} %", 100.0 * median));
-    let feet = found.iter().filter(|f| f.from_foot).map(|f| f.height.abs()).collect();
+    let heights = found.iter().filter(|f| f.is_height_seen).map(|f| f.height.abs()).collect();
     format!(
-        "  {label:26} found {:3} of {:3}  |diameter| median / q95: {} (level given; signed median {}), {} (nothing given)  |height|: {}\n",
+        "  {label:26} found {:3} of {:3}  |diameter| median / q95: {} (level given; signed median {}), {} (nothing given)  |rim height|: {}\n",
         found.len(),
         cases.len(),
         of(&|f| f.diameter),
         signed,
         of(&|f| f.diameter_alone),
-        quantiles(feet),
+        quantiles(heights),
+    )
+}
+
+/// Heights of rims, whatever they come from, and whether their uncertainties are honest.
+fn heights(label: &str, cases: &[&Case]) -> String {
+    let found: Vec<Found> = cases.iter().filter_map(|case| case.found).collect();
+    let errors: Vec<f64> = found.iter().map(|f| f.height.abs()).collect();
+    let (Some(median), Some(q95)) = (quantile(&errors, 0.5), quantile(&errors, 0.95)) else { return String::new() };
+    let within = |sigmas: f64| found.iter().filter(|f| f.height_sigmas.abs() <= sigmas).count();
+    format!(
+        "  rim height of {label}: {} found, median / q95 {:.1} / {:.1} %; {} within one standard uncertainty, {} within two\n",
+        found.len(),
+        100.0 * median,
+        100.0 * q95,
+        within(1.0),
+        within(2.0),
     )
 }
 

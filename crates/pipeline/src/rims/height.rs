@@ -71,7 +71,7 @@ const FURTHEST: f64 = 6.0;
 /// Scaled pixels between the places that are looked at.
 const STEP_PX: f64 = 3.0;
 /// Walls bulge, feet have rounded edges and shadows: relative standard deviation of a height from that.
-const MODEL: f64 = 0.05;
+const MODEL: f64 = 0.1;
 /// Least and greatest chance of an edge that means nothing.
 const CHANCE: (f64, f64) = (0.05, 0.7);
 /// Where it is counted: rings within and around the rim, in radii.
@@ -82,7 +82,7 @@ const AS_STRONG: f64 = 0.35;
 /// Neighbouring places are not independent: what they say counts this much.
 const INDEPENDENT: f64 = 0.3;
 /// Share of what is taken for a foot or floor that is none.
-const MISTAKEN: f64 = 0.1;
+const MISTAKEN: f64 = 0.15;
 /// What is seen has said something where it is so much likelier than nothing (logarithm).
 const SAYS: f64 = 4.0;
 
