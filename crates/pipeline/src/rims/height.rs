@@ -71,7 +71,7 @@ const FURTHEST: f64 = 6.0;
 /// Scaled pixels between the places that are looked at.
 const STEP_PX: f64 = 3.0;
 /// Walls bulge, feet have rounded edges and shadows: relative standard deviation of a height from that.
-const MODEL: f64 = 0.05;
+const MODEL: f64 = 0.1;
 /// Least and greatest chance of an edge that means nothing.
 const CHANCE: (f64, f64) = (0.05, 0.7);
 /// Where it is counted: rings within and around the rim, in radii.
@@ -82,8 +82,8 @@ const AS_STRONG: f64 = 0.35;
 /// Neighbouring places are not independent: what they say counts this much.
 const INDEPENDENT: f64 = 0.3;
 /// Share of what is taken for a foot or floor that is none.
-const MISTAKEN: f64 = 0.1;
-/// What is seen has said something where it is so much likelier than nothing (logarithm).
+const MISTAKEN: f64 = 0.15;
+/// What is seen tells a height if it speaks so much more for it than for what is common (logarithm).
 const SAYS: f64 = 4.0;
 
 /// One height, foot and wall, and the logarithm of how likely they are.
@@ -109,25 +109,25 @@ pub(super) fn of_rim(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Heights {
 fn height(trials: &[Trial], common: impl Fn(&Trial) -> f64) -> (RimHeight, f64) {
     let odds = |t: &Trial| t.below + t.within + common(t);
     let most = trials.iter().map(odds).fold(f64::NEG_INFINITY, f64::max);
-    let weights: Vec<f64> = trials.iter().map(|t| (odds(t) - most).exp()).collect();
-    let sum: f64 = weights.iter().sum();
-    let mean = |of: &dyn Fn(&Trial) -> f64| trials.iter().zip(&weights).map(|(t, w)| w * of(t)).sum::<f64>() / sum;
-    let mm = mean(&|t| t.height_mm);
-    let variance = mean(&|t| (t.height_mm - mm).powi(2));
+    let seen: Vec<f64> = trials.iter().map(|t| (odds(t) - most).exp()).collect();
+    let unseen: Vec<f64> = trials.iter().map(|t| common(t).exp()).collect();
+    let mm = mean(trials, &seen, |t| t.height_mm);
+    let variance = |weights: &[f64]| mean(trials, weights, |t| (t.height_mm - mm).powi(2));
     // What was taken for a foot may be a shadow: then nothing but what is common is known.
-    let spread = {
-        let weights: Vec<f64> = trials.iter().map(|t| common(t).exp()).collect();
-        let squares = trials.iter().zip(&weights).map(|(t, w)| w * (t.height_mm - mm).powi(2)).sum::<f64>();
-        squares / weights.iter().sum::<f64>()
-    };
-    let variance = (1.0 - MISTAKEN) * variance + MISTAKEN * spread;
-    let (below, within) = (mean(&|t| t.below), mean(&|t| t.within));
-    let source = match (below > SAYS, within > SAYS) {
+    let variance = (1.0 - MISTAKEN) * variance(&seen) + MISTAKEN * variance(&unseen);
+    // What is seen tells the height where it would not be seen at others, as from straight above.
+    let tells = |what: fn(&Trial) -> f64| mean(trials, &seen, what) - mean(trials, &unseen, what) > SAYS;
+    let source = match (tells(|t| t.below), tells(|t| t.within)) {
         (true, _) => HeightSource::Foot,
         (false, true) => HeightSource::Floor,
         (false, false) => HeightSource::Common,
     };
+    let sum: f64 = seen.iter().sum();
     (RimHeight { mm, sigma_mm: variance.sqrt().hypot(MODEL * mm), source }, most + sum.ln())
+}
+
+fn mean(trials: &[Trial], weights: &[f64], of: impl Fn(&Trial) -> f64) -> f64 {
+    trials.iter().zip(weights).map(|(t, w)| w * of(t)).sum::<f64>() / weights.iter().sum::<f64>()
 }
 
 fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {

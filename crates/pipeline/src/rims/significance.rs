@@ -17,7 +17,7 @@ const STEEP: f64 = 0.3;
 pub const FEATURES: usize = 10;
 /// Weights of [`Evidence::features`] in the logarithm of the odds that a circle is a rim: a logistic regression on rendered
 /// tables (docs/rims.md has the command).
-const CONFIDENCE: [f64; FEATURES] = [-14.53, 4.02, 1.07, 2.57, -5.89, -7.99, -9.42, 6.81, 1.31, 0.93];
+const CONFIDENCE: [f64; FEATURES] = [-14.53, 4.02, 1.07, 2.57, -5.88, -7.99, -9.41, 6.82, 1.31, 0.93];
 
 /// What speaks for a circle.
 #[derive(Debug, Clone, Copy, PartialEq)]

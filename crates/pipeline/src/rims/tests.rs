@@ -94,14 +94,15 @@ fn a_bowl_whose_foot_is_seen_gives_its_height() {
     }
 }
 
-/// Seen from straight above, the foot is hidden and the height is only what is common: the uncertainty says so.
+/// Seen from straight above, the foot is hidden, and the floor hardly moves with the height: the uncertainty says so.
 #[test]
 fn a_hidden_foot_leaves_the_height_uncertain() {
     let view = view(LensModel::None, 88.0);
     let rims = likely(&view, &picture(&view, &bowl(&view, 150.0, 80.0, 60.0)));
     assert_eq!(rims.len(), 1, "{rims:?}");
-    assert_eq!(rims[0].height.source, HeightSource::Common);
-    assert!(rims[0].height.sigma_mm > 0.25 * rims[0].height.mm);
+    let height = rims[0].height;
+    assert_ne!(height.source, HeightSource::Foot);
+    assert!(height.sigma_mm > 0.15 * height.mm && (height.mm - 60.0).abs() < 2.0 * height.sigma_mm, "{height:?}");
 }
 
 /// A hand over part of the rim: a flat, straight band from the centre's right to beyond the rim, seen from above.

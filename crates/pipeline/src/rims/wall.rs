@@ -67,13 +67,7 @@ impl Outline<'_> {
         for side in [-1.0, 1.0] {
             let (mut angle, mut last): (f64, Option<(usize, f64, f64)>) = (0.0, None);
             while angle < std::f64::consts::PI {
-                let reach = |level: &Level| level.moved * angle.cos() + level.radius;
-                let mut outer = 0;
-                for i in 1..LEVELS {
-                    if reach(&levels[i]) > reach(&levels[outer]) {
-                        outer = i;
-                    }
-                }
+                let outer = outermost(&levels, angle);
                 let level = levels[outer];
                 let (along, across) = (level.moved + level.radius * angle.cos(), side * level.radius * angle.sin());
                 if let Some((from, x, y)) = last
@@ -100,4 +94,10 @@ impl Outline<'_> {
         }
         sum
     }
+}
+
+/// The level that reaches furthest in a direction, by its angle from the point under the camera.
+fn outermost(levels: &[Level; LEVELS], angle: f64) -> usize {
+    let reach = |level: usize| levels[level].moved * angle.cos() + levels[level].radius;
+    (1..LEVELS).fold(0, |outer, level| if reach(level) > reach(outer) { level } else { outer })
 }

@@ -8,13 +8,15 @@
 //! already. With AIM_BATCH_LAID_CSV=FILE, one line per rim found, drinking glasses' left out: picture, confidence, right or
 //! not, what its confidence is worked out from (for the example `confidence`).
 
+mod tables;
+
 use std::error::Error;
 use std::io::Write as _;
 use std::sync::Arc;
 
 use ingest::Picture;
 use model::{Container, InputSigma, Kind, Method, Quantity, Shape, View};
-use nalgebra::Point2;
+use nalgebra::{Point2, Point3};
 use rayon::prelude::*;
 use simulate::laid::{self, Frame, Truth};
 
@@ -26,8 +28,9 @@ const LEAST_CONFIDENCE: f64 = 0.5;
 const RIGHT: f64 = 0.12;
 /// A container is in view if so much of its rim is in the picture and seen.
 const IN_VIEW: f64 = 0.6;
-/// The selection's window of pitch.
-const WINDOW_DEG: (f64, f64) = (47.5, 62.5);
+/// A foot shows if so much of its circle is seen; of as many places.
+const FOOT_SEEN: f64 = 0.15;
+const PLACES: u32 = 72;
 
 /// One round container of a picture, and what was found of it.
 struct Case {
@@ -35,6 +38,8 @@ struct Case {
     kind: Kind,
     pitch_deg: f64,
     in_view: bool,
+    /// Whether some of the foot is seen below the rim.
+    shows_foot: bool,
     found: Option<Found>,
 }
 
@@ -45,12 +50,13 @@ struct Found {
     diameter: f64,
     /// With nothing given: plates on the table, bowls at the height found.
     diameter_alone: f64,
+    /// Height of the rim.
     height: f64,
-    from_foot: bool,
+    /// The same in its standard uncertainties.
+    height_sigmas: f64,
+    /// Not only what is common.
+    is_height_seen: bool,
 }
-
-/// Which cases a line of a table counts.
-type Keep = fn(&Case) -> bool;
 
 /// A rim found.
 struct Judged {
@@ -91,11 +97,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             examine(frame, &view, &format!("{name}-{width}-{seed}-{at:03}"))
         };
         let reports = frames.par_iter().enumerate().map(examine).collect::<Result<Vec<Report>, String>>()?;
-        write!(out, "{}", summary(name, &reports))?;
+        write!(out, "{}", tables::summary(name, &reports))?;
         csv.extend(reports.iter().flat_map(|report| report.rims.iter().map(|rim| rim.csv(&report.name))));
         rims.extend(reports.into_iter().flat_map(|report| report.rims));
     }
-    write!(out, "{}", reliability(&rims))?;
+    write!(out, "{}", tables::reliability(&rims))?;
     if let Ok(file) = std::env::var("AIM_BATCH_LAID_CSV") {
         std::fs::write(file, csv)?;
     }
@@ -127,6 +133,7 @@ fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
             kind: truth.kind,
             pitch_deg: frame.head.pitch_deg,
             in_view: truth.rim_seen >= IN_VIEW,
+            shows_foot: foot_seen(frame, truth.object, view) >= FOOT_SEEN,
             found: best.and_then(|rim| found(rim, truth, view)),
         }
     });
@@ -146,6 +153,19 @@ fn jpeg(frame: &Frame, view: &View, name: &str) -> Result<Vec<u8>, String> {
             Ok(jpeg)
         }
     }
+}
+
+/// Share of the foot's circle on the table that is seen.
+fn foot_seen(frame: &Frame, object: &str, view: &View) -> f64 {
+    let Some(placed) = frame.placed.iter().find(|placed| placed.object == object) else { return 0.0 };
+    let (stand, up) = (frame.stand.0, view.pose().camera_height_mm());
+    let places = (0..PLACES).map(|i| f64::from(i) / f64::from(PLACES) * std::f64::consts::TAU);
+    let seen = places.filter(|angle| {
+        let out = 0.5 * placed.ware.foot_mm;
+        let at = Point3::new(placed.at_mm.x + out * angle.cos(), placed.at_mm.y + out * angle.sin(), 0.5);
+        frame.world.is_seen(Point3::new(stand.x, stand.y, up), at, 2.0)
+    });
+    seen.count() as f64 / f64::from(PLACES)
 }
 
 /// Whether a rim is a level circle of a drinking glass: its rim, its foot, or what it holds.
@@ -188,91 +208,12 @@ fn found(rim: &Rim, truth: &Truth, view: &View) -> Option<Found> {
         diameter: size_mm(Some(truth.rim_level_mm))? / truth_mm - 1.0,
         diameter_alone: size_mm(None)? / truth_mm - 1.0,
         height: height.mm / truth.rim_level_mm - 1.0,
-        from_foot: height.source != HeightSource::Common,
+        height_sigmas: (height.mm - truth.rim_level_mm) / height.sigma_mm,
+        is_height_seen: height.source != HeightSource::Common,
     })
 }
 
-fn summary(name: &str, reports: &[Report]) -> String {
-    let cases: Vec<&Case> = reports.iter().flat_map(|report| &report.cases).filter(|case| case.in_view).collect();
-    let mut text = format!("{name}: {} pictures, {} round containers in view\n", reports.len(), cases.len());
-    let rows: [(&str, Keep); 5] = [
-        ("all", |_| true),
-        ("pitch in the window", |c| (WINDOW_DEG.0..WINDOW_DEG.1).contains(&c.pitch_deg)),
-        ("at 55 degrees (50 to 60)", |c| (50.0..60.0).contains(&c.pitch_deg)),
-        ("plates", |c| c.kind == Kind::Plate),
-        ("bowls", |c| c.kind == Kind::Bowl),
-    ];
-    for (label, keep) in rows {
-        let kept: Vec<&&Case> = cases.iter().filter(|case| keep(case)).collect();
-        text += &line(label, &kept);
-    }
-    let mut objects: Vec<&str> = cases.iter().map(|case| &*case.object).collect();
-    objects.sort_unstable();
-    objects.dedup();
-    for object in objects {
-        text += &line(object, &cases.iter().filter(|case| *case.object == *object).collect::<Vec<_>>());
-    }
-    let is_false = |rim: &Judged| rim.confidence >= LEAST_CONFIDENCE && !rim.is_right && !rim.is_cup;
-    let false_in = |report: &&Report| report.rims.iter().any(is_false);
-    let bare: Vec<&Report> = reports.iter().filter(|report| report.is_bare).collect();
-    text += &format!(
-        "  false rims of 90 mm and more: in {} of {} pictures without a container, in {} of {} with; drinking glasses found {}, \
-         kept by a run {}\n",
-        bare.iter().filter(|r| false_in(r)).count(),
-        bare.len(),
-        reports.iter().filter(|r| !r.is_bare).filter(false_in).count(),
-        reports.len() - bare.len(),
-        reports.iter().map(|r| r.glasses[0]).sum::<usize>(),
-        reports.iter().map(|r| r.glasses[1]).sum::<usize>(),
-    );
-    text
-}
-
-fn line(label: &str, cases: &[&&Case]) -> String {
-    let found: Vec<Found> = cases.iter().filter_map(|case| case.found).collect();
-    let quantiles = |values: Vec<f64>| match (quantile(&values, 0.5), quantile(&values, 0.95)) {
-        (Some(median), Some(q95)) => format!("{:.2} / {:.2} %", 100.0 * median, 100.0 * q95),
-        _ => "-".to_owned(),
-    };
-    let of = |size: &dyn Fn(&Found) -> f64| quantiles(found.iter().map(|f| size(f).abs()).collect());
-    let diameters: Vec<f64> = found.iter().map(|f| f.diameter).collect();
-    let signed = quantile(&diameters, 0.5).map_or_else(|| "-".to_owned(), |median| format!("{:+.2} %", 100.0 * median));
-    let feet = found.iter().filter(|f| f.from_foot).map(|f| f.height.abs()).collect();
-    format!(
-        "  {label:26} found {:3} of {:3}  |diameter| median / q95: {} (level given; signed median {}), {} (nothing given)  |height|: {}\n",
-        found.len(),
-        cases.len(),
-        of(&|f| f.diameter),
-        signed,
-        of(&|f| f.diameter_alone),
-        quantiles(feet),
-    )
-}
-
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "an index")]
-fn quantile(values: &[f64], p: f64) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get((p * (sorted.len().checked_sub(1)?) as f64).round() as usize).copied()
-}
-
-/// Of the rims in each band of confidence, how many are right, and how many should be.
-fn reliability(rims: &[Judged]) -> String {
-    let bands = [0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 1.01];
-    let rows = bands.windows(2).map(|band| {
-        let inside: Vec<&Judged> = rims.iter().filter(|rim| (band[0]..band[1]).contains(&rim.confidence)).collect();
-        let right = inside.iter().filter(|rim| rim.is_right).count();
-        let expected: f64 = inside.iter().map(|rim| rim.confidence).sum();
-        format!(
-            "  {:.2} to {:.2}: {right} of {} right, {expected:.1} expected\n",
-            band[0],
-            band[1].min(1.0),
-            inside.len()
-        )
-    });
-    std::iter::once("confidence\n".to_owned()).chain(rows).collect()
-}
-
+:crates/pipeline/examples/laid/main.rs
 impl Judged {
     fn csv(&self, picture: &str) -> String {
         let features: Vec<String> = self.features.iter().map(|feature| format!("{feature:.5}")).collect();
