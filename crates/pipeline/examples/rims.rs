@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     for rim in rims {
         let ([x, y], radius) = rim.on_table_mm;
-        let (confidence, coverage, points) = (rim.confidence, rim.coverage, rim.points_px.len());
+        let (confidence, coverage, points) = (rim.confidence, rim.evidence.coverage, rim.points_px.len());
         let (height, kind) = (rim.height, rim.kind);
         #[expect(clippy::print_stdout, reason = "an example prints what it found")]
         {

@@ -18,14 +18,17 @@ pub struct Found {
     pub perimeter_px: f64,
     /// Its height if it is a bowl's.
     pub height: RimHeight,
+    /// Its height if it is a plate's; none in files of versions that took plates to lie on the table.
+    #[serde(default)]
+    pub plate_height: Option<RimHeight>,
 }
 
 impl Rim {
     /// What is known of it besides its points.
     #[must_use]
     pub fn found(&self) -> Found {
-        let Self { kind, confidence, perimeter_px, height, .. } = *self;
-        Found { kind, confidence, perimeter_px, height }
+        let Self { kind, confidence, perimeter_px, height, plate_height, .. } = *self;
+        Found { kind, confidence, perimeter_px, height, plate_height: Some(plate_height) }
     }
 }
 
@@ -38,7 +41,11 @@ impl Found {
             Some("confidence: expected 0 to 1")
         } else if !(self.perimeter_px.is_finite() && self.perimeter_px > 0.0) {
             Some("perimeter_px: expected a positive number")
-        } else if !(not_negative(self.height.mm) && not_negative(self.height.sigma_mm)) {
+        } else if ![Some(self.height), self.plate_height]
+            .into_iter()
+            .flatten()
+            .all(|height| not_negative(height.mm) && not_negative(height.sigma_mm))
+        {
             Some("height: expected zero or positive numbers")
         } else {
             None

@@ -1,14 +1,17 @@
-//! How high above the table a rim is, from the foot below it.
+//! How high above the table a rim is, from what is seen below it and in it.
 //!
-//! Rim and foot are circles about one vertical axis. On the plane Z = 0 a rim at height H appears scaled by
-//! k = c / (c - H) about the point under the camera, so its centre shows where the foot's centre must be for every H. The
-//! outline of the wall is, there, that of the two circles with a line stretched around both.
+//! All level circles of a container have one upright axis. On the plane Z = 0 one at the level z appears about the point
+//! t C, with C the centre of the rim there, and t = (c - H) / (c - z) for a camera at c and a rim at H; its radius is r t / s,
+//! with s = 1 - H / c. So the places of the foot, of the wall's outline ([`wall`](super::wall)) and of the floor
+//! ([`floor`](super::floor)) are known for every height, and the edges there say how likely it is.
 
 use serde::{Deserialize, Serialize};
 
 use super::arcs::Arc;
 use super::buckets::Buckets;
-use super::raster::{Raster, Window};
+use super::floor::Floors;
+use super::raster::Raster;
+use super::wall::Outline;
 
 /// Height of a rim above the table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -28,173 +31,162 @@ pub struct RimHeight {
 pub enum HeightSource {
     /// It was given.
     Given,
-    /// The foot is seen below the rim, about the same axis.
+    /// The foot or the wall is seen below the rim, about the same axis.
     Foot,
-    /// The foot is hidden: what bowls commonly have, in proportion to their diameter, as far as a hidden foot allows.
+    /// The floor or the well is seen within the rim, about the same axis.
+    Floor,
+    /// Neither is seen: what is common, in proportion to the diameter, as far as what is hidden allows.
     Common,
 }
 
-/// Height over diameter: median and standard deviation of its logarithm. Bowls lie between 0.25 and 0.6; cups reach 1.3.
-const COMMON: (f64, f64) = (0.42, 0.5);
+/// Heights of a rim, if it is a plate's and if it is a bowl's.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Heights {
+    pub plate: RimHeight,
+    pub bowl: RimHeight,
+    /// How likely a plate is, by all that is seen.
+    pub is_plate: f64,
+}
+
+/// Height over diameter of plates: mean and standard deviation. Flat ones have 0.07 to 0.1, deep ones up to 0.16.
+const PLATES: (f64, f64) = (0.095, 0.035);
+/// The same of bowls: median and standard deviation of its logarithm. They lie between 0.25 and 0.6.
+const BOWLS: (f64, f64) = (0.4, 0.3);
+/// Height of cups, mugs and glasses in mm: median and standard deviation of its logarithm.
+const CUPS: (f64, f64) = (98.0, 0.22);
+/// Half of the hollow containers with this diameter are cups, and what it takes to make it 73 %: in mm.
+const HALF_CUPS_MM: (f64, f64) = (100.0, -5.0);
+/// Half of the containers with this diameter are plates, and what it takes to make it 73 %: in mm.
+const HALF_PLATES_MM: (f64, f64) = (175.0, 14.0);
 /// Foot over rim radius: mean and standard deviation.
-const COMMON_FOOT: (f64, f64) = (0.62, 0.15);
-/// Height over diameter that is tried.
-const TRIED: (f64, f64) = (0.12, 1.8);
-/// Ratios of two heights tried one after the other.
-const HEIGHT_STEP: f64 = 1.04;
+const FEET: (f64, f64) = (0.6, 0.17);
+/// Height over diameter that is tried, and the ratio of two tried one after the other.
+const TRIED: (f64, f64, f64) = (0.04, 2.2, 1.05);
+/// Foot over rim radius that is tried, and its steps.
+const FOOT: (f64, f64, f64) = (0.3, 1.04, 0.06);
+/// How round walls are that are tried: 0 a cone, 1 a quarter of an ellipse.
+const ROUND: [f64; 3] = [0.0, 0.45, 0.9];
 /// A foot is looked for within this many radii of the rim's centre.
 const FURTHEST: f64 = 6.0;
-/// Foot over rim radius that is tried, and its steps.
-const FOOT: (f64, f64, f64) = (0.3, 1.04, 0.04);
 /// Scaled pixels between the places that are looked at.
 const STEP_PX: f64 = 3.0;
-/// Scaled pixels from the rim within which edges are the rim's.
-const CLEAR_PX: f64 = 3.0;
-/// A foot shows an edge at this share of its places, a wall (seldom straight) at this share of its.
-const SHOWS: [f64; 2] = [0.85, 0.4];
 /// Walls bulge, feet have rounded edges and shadows: relative standard deviation of a height from that.
-const MODEL: f64 = 0.08;
-/// Least chance of an edge that means nothing.
-const LEAST_CHANCE: f64 = 0.05;
+const MODEL: f64 = 0.1;
+/// Least and greatest chance of an edge that means nothing.
+const CHANCE: (f64, f64) = (0.05, 0.7);
+/// Where it is counted: rings within and around the rim, in radii.
+const WITHIN: [f64; 2] = [0.2, 0.85];
+const AROUND: [f64; 2] = [1.15, 1.8];
+/// A wall stands out from the table as its rim does, this share of it at least: a shadow does less.
+const AS_STRONG: f64 = 0.35;
 /// Neighbouring places are not independent: what they say counts this much.
-const INDEPENDENT: f64 = 0.5;
-/// The height of a bowl's rim.
-pub(super) fn of_bowl(buckets: &Buckets, rim: &Arc, camera_height_mm: f64) -> RimHeight {
-    let trials = trials(buckets, rim, camera_height_mm);
-    let best = trials.iter().max_by(|a, b| a.log_odds.total_cmp(&b.log_odds));
-    let Some(best) = best else {
-        let mm = COMMON.0 * 2.0 * rim.disc.radius;
-        return RimHeight { mm, sigma_mm: COMMON.1 * mm, source: HeightSource::Common };
-    };
-    let weight = |t: &Trial| (t.log_odds - best.log_odds).exp();
-    let sum: f64 = trials.iter().map(weight).sum();
-    let mean = trials.iter().map(|t| weight(t) * t.height_mm).sum::<f64>() / sum;
-    let variance = trials.iter().map(|t| weight(t) * (t.height_mm - mean).powi(2)).sum::<f64>() / sum;
-    // The foot has been seen where the places looked at say so, whatever bowls commonly are.
-    let source = if best.seen > 4.0 { HeightSource::Foot } else { HeightSource::Common };
-    RimHeight { mm: mean, sigma_mm: variance.sqrt().hypot(MODEL * mean), source }
-}
+const INDEPENDENT: f64 = 0.3;
+/// Share of what is taken for a foot or floor that is none.
+const MISTAKEN: f64 = 0.15;
+/// What is seen tells a height if it speaks so much more for it than for what is common (logarithm).
+const SAYS: f64 = 4.0;
 
-/// One height and foot, and the logarithm of how likely they are.
+/// One height, foot and wall, and the logarithm of how likely they are.
 struct Trial {
     height_mm: f64,
-    log_odds: f64,
-    seen: f64,
+    /// By what is seen below the rim, and within it.
+    below: f64,
+    within: f64,
+    /// By what is common, if it is a plate, and if it is a bowl.
+    plate: f64,
+    bowl: f64,
 }
 
-fn trials(buckets: &Buckets, rim: &Arc, camera_height_mm: f64) -> Vec<Trial> {
+/// The heights of a rim.
+pub(super) fn of_rim(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Heights {
+    let trials = trials(buckets, rim, camera_mm);
+    let (plate, plates) = height(&trials, |t| t.plate);
+    let (bowl, bowls) = height(&trials, |t| t.bowl);
+    Heights { plate, bowl, is_plate: 1.0 / (1.0 + (bowls - plates).clamp(-500.0, 500.0).exp()) }
+}
+
+/// Mean and deviation of the height, and the logarithm of the sum of all that speaks for it.
+fn height(trials: &[Trial], common: impl Fn(&Trial) -> f64) -> (RimHeight, f64) {
+    let odds = |t: &Trial| t.below + t.within + common(t);
+    let most = trials.iter().map(odds).fold(f64::NEG_INFINITY, f64::max);
+    let seen: Vec<f64> = trials.iter().map(|t| (odds(t) - most).exp()).collect();
+    let unseen: Vec<f64> = trials.iter().map(|t| common(t).exp()).collect();
+    let mm = mean(trials, &seen, |t| t.height_mm);
+    let variance = |weights: &[f64]| mean(trials, weights, |t| (t.height_mm - mm).powi(2));
+    // What was taken for a foot may be a shadow: then nothing but what is common is known.
+    let variance = (1.0 - MISTAKEN) * variance(&seen) + MISTAKEN * variance(&unseen);
+    // What is seen tells the height where it would not be seen at others, as from straight above.
+    let tells = |what: fn(&Trial) -> f64| mean(trials, &seen, what) - mean(trials, &unseen, what) > SAYS;
+    let source = match (tells(|t| t.below), tells(|t| t.within)) {
+        (true, _) => HeightSource::Foot,
+        (false, true) => HeightSource::Floor,
+        (false, false) => HeightSource::Common,
+    };
+    let sum: f64 = seen.iter().sum();
+    (RimHeight { mm, sigma_mm: variance.sqrt().hypot(MODEL * mm), source }, most + sum.ln())
+}
+
+fn mean(trials: &[Trial], weights: &[f64], of: impl Fn(&Trial) -> f64) -> f64 {
+    trials.iter().zip(weights).map(|(t, w)| w * of(t)).sum::<f64>() / weights.iter().sum::<f64>()
+}
+
+fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
     let away = rim.disc.x.hypot(rim.disc.y);
-    let chance = rim.chance.max(LEAST_CHANCE);
     let scale = std::f64::consts::TAU * rim.disc.radius / rim.perimeter_px;
     // The lowest foot that is tried, and what is around it.
-    let lowest = away * (1.0 - shrink(rim, camera_height_mm, TRIED.1)) + rim.disc.radius;
-    let reach = lowest.min(FURTHEST * rim.disc.radius);
-    let toward = [-rim.disc.x / away.max(1e-9), -rim.disc.y / away.max(1e-9)];
-    let furthest = away * (1.0 - shrink(rim, camera_height_mm, TRIED.1));
-    let window = around(rim, toward, furthest);
-    let raster = Raster::of(buckets, [rim.disc.x, rim.disc.y], reach, window, scale);
-    let odds = SHOWS.map(|shows| [((1.0 - shows) / (1.0 - chance)).ln(), (shows / chance).ln()]);
+    let lowest = away * (1.0 - shrink(rim, camera_mm, TRIED.1)) + rim.disc.radius;
+    let center = [rim.disc.x, rim.disc.y];
+    #[expect(clippy::cast_possible_truncation, reason = "levels")]
+    let least = (AS_STRONG * rim.contrast) as f32;
+    let outside = Raster::of(buckets, center, lowest.min(FURTHEST * rim.disc.radius), scale, least);
+    let inside = Raster::of(buckets, center, rim.disc.radius, scale, 0.0);
+    let chances = |raster: &Raster, rings| raster.chances(&rim.disc, rings, CHANCE);
+    let floors = Floors { rim, raster: &inside, chances: chances(&inside, WITHIN), scale, camera_mm };
+    let chances = chances(&outside, AROUND);
     let mut trials = Vec::new();
     let mut ratio = TRIED.0;
     while ratio < TRIED.1 {
-        let shrink = shrink(rim, camera_height_mm, ratio);
-        let height_mm = camera_height_mm * (1.0 - shrink);
-        let likely_height = -0.5 * ((ratio / COMMON.0).ln() / COMMON.1).powi(2);
-        let mut foot = FOOT.0;
-        while foot < FOOT.1 {
-            let outline = Outline {
-                rim,
-                toward,
-                apart: away * (1.0 - shrink),
-                radius: foot * rim.disc.radius * shrink,
-                step: STEP_PX * scale,
-            };
-            let seen = INDEPENDENT * outline.seen(&raster, odds);
-            let likely_foot = -0.5 * ((foot - COMMON_FOOT.0) / COMMON_FOOT.1).powi(2);
-            trials.push(Trial { height_mm, log_odds: seen + likely_height + likely_foot, seen });
-            foot += FOOT.2;
+        let shrink = shrink(rim, camera_mm, ratio);
+        let height_mm = camera_mm * (1.0 - shrink);
+        let within = INDEPENDENT * floors.seen(height_mm);
+        let (plate, bowl) = common(ratio, 2.0 * rim.disc.radius * shrink);
+        for round in ROUND {
+            let mut foot = FOOT.0;
+            while foot < FOOT.1 {
+                let outline = Outline { rim, height_mm, camera_mm, foot, round, step: STEP_PX * scale };
+                let below = INDEPENDENT * outline.seen(&outside, &chances, scale);
+                let likely = -0.5 * ((foot - FEET.0) / FEET.1).powi(2);
+                trials.push(Trial { height_mm, below, within, plate: plate + likely, bowl: bowl + likely });
+                foot += FOOT.2;
+            }
         }
-        ratio *= HEIGHT_STEP;
+        ratio *= TRIED.2;
     }
     trials
 }
 
-/// What the places lie in that are looked at for any height: discs no wider than the widest foot, from the rim's centre
-/// towards the furthest one.
-fn around(rim: &Arc, toward: [f64; 2], furthest: f64) -> Window {
-    let (from, widest) = ([rim.disc.x, rim.disc.y], FOOT.1 * rim.disc.radius);
-    let corner = |pick: fn(f64, f64) -> f64, side: f64| {
-        [0, 1].map(|axis| pick(from[axis], from[axis] + toward[axis] * furthest) + side * widest)
-    };
-    [corner(f64::min, -1.0), corner(f64::max, 1.0)]
+/// Logarithms of how common a height (over diameter) is among plates, and among bowls and cups, of this diameter; per
+/// logarithm of the height.
+fn common(ratio: f64, diameter_mm: f64) -> (f64, f64) {
+    let share = |(half_mm, step_mm): (f64, f64)| 1.0 / (1.0 + ((half_mm - diameter_mm) / step_mm).exp());
+    let normal = |off: f64, sd: f64| (-0.5 * (off / sd).powi(2)).exp() / sd;
+    let (plates, cups) = (share(HALF_PLATES_MM), share(HALF_CUPS_MM));
+    let plate = plates * ratio * normal(ratio - PLATES.0, PLATES.1);
+    let bowl = (1.0 - cups) * normal((ratio / BOWLS.0).ln(), BOWLS.1);
+    let cup = cups * normal((ratio * diameter_mm / CUPS.0).ln(), CUPS.1);
+    let log = |likely: f64| likely.max(1e-12).ln();
+    (log(plate), log((1.0 - plates).max(1e-3) * (bowl + cup)))
 }
 
 /// How much smaller the rim is than it appears on Z = 0 if its height is so much of its diameter: H = q D and
 /// D = 2 R (1 - H / c), with R the radius on Z = 0.
-fn shrink(rim: &Arc, camera_height_mm: f64, ratio: f64) -> f64 {
-    1.0 / (1.0 + 2.0 * ratio * rim.disc.radius / camera_height_mm)
+fn shrink(rim: &Arc, camera_mm: f64, ratio: f64) -> f64 {
+    1.0 / (1.0 + 2.0 * ratio * rim.disc.radius / camera_mm)
 }
 
-/// The outline of a wall between a rim and a foot, on the plane Z = 0.
-struct Outline<'a> {
-    rim: &'a Arc,
-    /// Unit vector from the rim's centre to the foot's: towards the point under the camera.
-    toward: [f64; 2],
-    /// Distance of the centres.
-    apart: f64,
-    /// Radius of the foot.
-    radius: f64,
-    /// Distance of the places that are looked at.
-    step: f64,
-}
-
-impl Outline<'_> {
-    /// What its edges say: logarithm of how much likelier they are with this foot than without. `odds`: what a place of the
-    /// foot and one of the wall say, each without an edge and with one.
-    fn seen(&self, raster: &Raster, odds: [[f64; 2]; 2]) -> f64 {
-        let cosine = (self.rim.disc.radius - self.radius) / self.apart;
-        if cosine >= 1.0 {
-            return 0.0; // hidden behind the rim
-        }
-        // The line around both circles leaves the foot where both normals agree.
-        let exposed = cosine.max(-1.0).acos();
-        let heading = self.toward[1].atan2(self.toward[0]);
-        let center = [self.rim.disc.x + self.toward[0] * self.apart, self.rim.disc.y + self.toward[1] * self.apart];
-        let mut sum = 0.0;
-        let rim = &self.rim.disc;
-        // On the rim itself, edges are the rim's.
-        let clear = (rim.radius + CLEAR_PX * self.step / STEP_PX).powi(2);
-        let mut look = |at: [f64; 2], angle: f64, odds: [f64; 2]| {
-            if (at[0] - rim.x).powi(2) + (at[1] - rim.y).powi(2) > clear {
-                sum += odds[usize::from(raster.has_edge(at, angle))];
-            }
-        };
-        let turn = (self.step / self.radius).min(0.5);
-        #[expect(clippy::cast_possible_truncation, reason = "places along half a foot")]
-        let places = (exposed / turn) as i32;
-        let (sin, cos) = turn.sin_cos();
-        let (mut y, mut x) = (heading - f64::from(places) * turn).sin_cos();
-        for place in -places..=places {
-            let angle = heading + f64::from(place) * turn;
-            look([center[0] + self.radius * x, center[1] + self.radius * y], angle, odds[0]);
-            (x, y) = (x * cos - y * sin, x * sin + y * cos);
-        }
-        let length = (self.apart.powi(2) - (rim.radius - self.radius).powi(2)).sqrt();
-        for side in [-1.0, 1.0] {
-            let angle = heading + side * exposed;
-            let normal = [angle.cos(), angle.sin()];
-            let mut along = self.step;
-            while along < length {
-                let share = along / length;
-                let at = [0, 1].map(|i| {
-                    let rim = [rim.x, rim.y][i] + rim.radius * normal[i];
-                    let foot = center[i] + self.radius * normal[i];
-                    foot + (rim - foot) * share
-                });
-                look(at, angle, odds[1]);
-                along += self.step;
-            }
-        }
-        sum
-    }
+/// Logarithm of how much likelier it is with something there than without that an edge is seen at a place, or is not.
+/// `shows`: share of such places that show an edge; `chance`: of all others.
+pub(super) fn says(is_edge: bool, shows: f64, chance: f64) -> f64 {
+    let shows = shows.max(chance); // an edge speaks against nothing
+    if is_edge { (shows / chance).ln() } else { ((1.0 - shows) / (1.0 - chance)).ln() }
 }

@@ -3,8 +3,9 @@
 //! The pose is known, so a level circle at any height is a circle on the plane Z = 0 ([`ground`]). Edges of the picture at a
 //! reduced scale are linked to chains ([`edges`], [`chains`]), carried to that plane, and vote there for circles
 //! ([`votes`]); likely circles are fitted ([`arcs`]), carried from inner to outer edges ([`outward`]), weighed against
-//! chance ([`significance`]), and one per container is kept ([`select`]). The rim is then followed through the full picture
-//! ([`refine`]). Its height comes from the foot below it ([`height`]).
+//! chance ([`significance`]), and one per container is kept ([`select`]). In the full picture the outer edge is found
+//! ([`lip`]) and followed ([`refine`]). The height comes from foot and wall below the rim and the floor within it ([`height`],
+//! [`wall`], [`floor`]).
 //!
 //! A found rim becomes the same [`ObjectMarks`] as a person's marks, and is measured by the same code.
 
@@ -12,9 +13,11 @@ mod arcs;
 mod buckets;
 mod chains;
 mod edges;
+mod floor;
 mod found;
 mod ground;
 mod height;
+mod lip;
 mod outward;
 mod raster;
 mod refine;
@@ -26,16 +29,20 @@ mod sizes;
 #[cfg(test)]
 mod tests;
 mod votes;
+mod wall;
 
 use ingest::Picture;
 use model::{Feature, Kind, Mark, ObjectMarks, View};
 use nalgebra::{Point2, Point3};
 
-use arcs::Arc;
 use buckets::Buckets;
 pub use found::Found;
+use height::Heights;
 pub use height::{HeightSource, RimHeight};
+use refine::Followed;
 use scaled::Scaled;
+use select::Scored;
+pub use significance::{Evidence, FEATURES};
 
 /// A rim found in a picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,10 +57,12 @@ pub struct Rim {
     pub points_px: Vec<Point2<f64>>,
     /// Length of the rim as it appears.
     pub perimeter_px: f64,
-    /// Share of the rim that has an edge along it, of what lies in the picture.
-    pub coverage: f64,
+    /// What speaks for it.
+    pub evidence: Evidence,
     /// Its height if it is a bowl's.
     pub height: RimHeight,
+    /// Its height if it is a plate's.
+    pub plate_height: RimHeight,
     /// Centre (world X, Y) and radius of the circle that it appears as on the plane Z = 0, in mm.
     pub on_table_mm: ([f64; 2], f64),
 }
@@ -81,12 +90,10 @@ pub enum RimError {
     },
 }
 
-/// Plates are wider than this (the second: nothing else is), and lower than this share of their diameter.
-const PLATE_MM: f64 = 190.0;
-const ALWAYS_PLATE_MM: f64 = 220.0;
-const PLATE_HEIGHT: f64 = 0.3;
 /// Version of what is found. A change of meaning gives another number, and pictures are searched anew.
-pub(crate) const VERSION: u32 = 1;
+pub(crate) const VERSION: u32 = 2;
+/// Plates and bowls are wider; cups, mugs and drinking glasses are not. A study may set another limit.
+pub const LEAST_DIAMETER_MM: f64 = 90.0;
 /// Fewer points do not hold a rim.
 pub(crate) const LEAST_POINTS: usize = 12;
 
@@ -105,36 +112,44 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
     }
     let scaled = Scaled::of(picture);
     let buckets = Buckets::new(&ground::ground_edges(view, &scaled));
-    let rims = search::rims(view, &buckets);
-    Ok(rims
-        .iter()
-        .filter_map(|found| {
-            let height = height::of_bowl(&buckets, &found.arc, view.pose().camera_height_mm());
-            let points_px = refine::follow(picture, view, &found.arc, scaled.factor);
-            let center_px = view.pixel_of(Point3::new(found.arc.disc.x, found.arc.disc.y, 0.0)).ok()?;
-            (points_px.len() >= LEAST_POINTS).then(|| Rim {
-                kind: kind(&found.arc, height, view),
-                confidence: found.confidence,
-                center_px,
-                points_px,
-                perimeter_px: found.arc.perimeter_px * scaled.factor as f64,
-                coverage: found.evidence.coverage,
-                on_table_mm: ([found.arc.disc.x, found.arc.disc.y], found.arc.disc.radius),
-                height,
-            })
-        })
-        .collect())
+    let found = search::rims(view, &buckets);
+    let mut rims: Vec<Rim> =
+        found.iter().filter_map(|found| in_full(picture, view, &buckets, found, scaled.factor)).collect();
+    rims.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
+    Ok(rims)
 }
 
-/// What it looks like: a plate is very wide, or wide without a high wall below its rim (a shadow may look like a low one).
-fn kind(arc: &Arc, height: RimHeight, view: &View) -> Kind {
-    let on_table_mm = 2.0 * arc.disc.radius;
-    let diameter_mm = on_table_mm * (1.0 - height.mm / view.pose().camera_height_mm());
-    let shows_a_wall = height.source == HeightSource::Foot && height.mm > PLATE_HEIGHT * diameter_mm;
-    if on_table_mm >= ALWAYS_PLATE_MM || (on_table_mm >= PLATE_MM && !shows_a_wall) { Kind::Plate } else { Kind::Bowl }
+/// A circle that was found, followed through the full picture; none where too little of it is seen there.
+#[expect(clippy::cast_precision_loss, reason = "a small factor")]
+fn in_full(picture: &Picture, view: &View, buckets: &Buckets, found: &Scored, factor: usize) -> Option<Rim> {
+    let arc = lip::outer_edge(picture, view, found.arc.clone(), factor);
+    let Followed { points_px, sharp } = refine::follow(picture, view, &arc, factor);
+    if points_px.len() < LEAST_POINTS {
+        return None;
+    }
+    let Heights { plate, bowl, is_plate } = height::of_rim(buckets, &arc, view.pose().camera_height_mm());
+    let evidence = Evidence { sharp, ..found.best };
+    Some(Rim {
+        confidence: evidence.confidence(),
+        evidence,
+        kind: if is_plate >= 0.5 { Kind::Plate } else { Kind::Bowl },
+        center_px: view.pixel_of(Point3::new(arc.disc.x, arc.disc.y, 0.0)).ok()?,
+        points_px,
+        perimeter_px: arc.perimeter_px * factor as f64,
+        height: bowl,
+        plate_height: plate,
+        on_table_mm: ([arc.disc.x, arc.disc.y], arc.disc.radius),
+    })
 }
 
 impl Rim {
+    /// Its diameter if it is what it looks like, in mm.
+    #[must_use]
+    pub fn diameter_mm(&self, view: &View) -> f64 {
+        let height = if self.kind == Kind::Plate { self.plate_height } else { self.height };
+        2.0 * self.on_table_mm.1 * (1.0 - height.mm / view.pose().camera_height_mm())
+    }
+
     /// The marks that a person would have made.
     #[must_use]
     pub fn marks(&self, object: &str) -> ObjectMarks {

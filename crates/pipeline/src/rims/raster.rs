@@ -17,76 +17,103 @@ const CELLS_PER_PX: f64 = 1.5;
 /// Cells along a side, at most.
 const MOST_CELLS: f64 = 1200.0;
 
-/// Which normals edges have, by place, within a window.
+/// Places that are counted for [`Chances`]: around, and from ring to ring.
+const TURNS: u32 = 60;
+const RINGS: u32 = 16;
+
+/// Chance of an edge that means nothing, by the direction of its normal.
+pub(super) struct Chances([f64; SECTORS as usize]);
+
+impl Chances {
+    /// For a normal in this direction, to either side.
+    #[expect(clippy::cast_possible_truncation, reason = "an angle")]
+    pub(super) fn of(&self, normal_rad: f64) -> f64 {
+        self.0[sector(normal_rad as f32) as usize]
+    }
+}
+
+/// Which normals edges have, by place.
 pub(super) struct Raster {
     left: f32,
     near: f32,
     cell: f32,
-    columns: i64,
-    rows: i64,
+    columns: usize,
     /// One bit per sector of directions.
     sectors: Vec<u16>,
 }
 
-/// Two corners in mm: the lowest x and y, and the highest.
-pub(super) type Window = [[f64; 2]; 2];
-
 impl Raster {
-    /// The edges within `reach` (mm) of a centre, as far as they lie in the window. `scale`: mm per scaled pixel.
+    /// The edges within a square about a circle, that reaches as far as `reach` (mm) from its centre, and are at least as
+    /// strong as `least` (levels per scaled pixel). `scale`: mm per scaled pixel.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]
-    pub(super) fn of(buckets: &Buckets, center: [f64; 2], reach: f64, window: Window, scale: f64) -> Self {
+    pub(super) fn of(buckets: &Buckets, center: [f64; 2], reach: f64, scale: f64, least: f32) -> Self {
         let cell = (scale / CELLS_PER_PX).max(2.0 * reach / MOST_CELLS);
-        // Cells are counted from the corner of the square about the centre, whatever the window.
-        let cells = |axis: usize| {
-            let corner = center[axis] - reach;
-            let [first, last] = window.map(|place| ((place[axis] - corner).clamp(0.0, 2.0 * reach) / cell).floor());
-            (corner + first * cell, (last - first) as i64 + 1)
+        let columns = (2.0 * reach / cell) as usize + 1;
+        let mut raster = Self {
+            left: (center[0] - reach) as f32,
+            near: (center[1] - reach) as f32,
+            cell: cell as f32,
+            columns,
+            sectors: vec![0; columns * columns],
         };
-        let ((left, columns), (near, rows)) = (cells(0), cells(1));
-        let (left, near, cell) = (left as f32, near as f32, cell as f32);
-        let sectors = vec![0; (columns * rows) as usize];
-        let mut raster = Self { left, near, cell, columns, rows, sectors };
         // All edges of the disc, as those near the rim of one half its size.
         let disc = Disc { x: center[0], y: center[1], radius: 0.75 * reach };
-        buckets.near_rim(&disc, 0.76 * reach as f32, |e| raster.draw(e));
+        buckets.near_rim(&disc, 0.76 * reach as f32, |e| {
+            if e.contrast >= least {
+                raster.draw(e);
+            }
+        });
         raster
     }
 
     /// Draws an edge.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "cells")]
     fn draw(&mut self, e: &GroundEdge) {
-        let (across, along) = (ACROSS_PX * e.scale, ALONG * e.length);
-        let half = |across_part: f32, along_part: f32| {
-            ((across * across_part.abs() + along * along_part.abs()) / self.cell) as i64 + 1
-        };
-        let (half_columns, half_rows) = (half(e.nx, e.ny), half(e.ny, e.nx));
-        let (column, row) = self.cell_of(e.x, e.y);
-        let columns = (column - half_columns).max(0)..(column + half_columns + 1).min(self.columns);
-        let rows = (row - half_rows).max(0)..(row + half_rows + 1).min(self.rows);
-        if columns.is_empty() || rows.is_empty() {
-            return;
-        }
         let bits = sectors_around(e.ny.atan2(e.nx));
-        for r in rows {
-            let dy = self.near + (r as f32 + 0.5) * self.cell - e.y;
-            let base = r * self.columns;
-            let cells = &mut self.sectors[(base + columns.start) as usize..(base + columns.end) as usize];
-            for (c, cell) in columns.clone().zip(cells) {
+        let (across, along) = (ACROSS_PX * e.scale, ALONG * e.length);
+        let half = ((across + along) / self.cell) as i64 + 1;
+        let (column, row) = self.cell_of(e.x, e.y);
+        let most = self.columns as i64;
+        for r in (row - half).max(0)..(row + half + 1).min(most) {
+            for c in (column - half).max(0)..(column + half + 1).min(most) {
                 let dx = self.left + (c as f32 + 0.5) * self.cell - e.x;
+                let dy = self.near + (r as f32 + 0.5) * self.cell - e.y;
                 if (dx * e.nx + dy * e.ny).abs() <= across && (dx * e.ny - dy * e.nx).abs() <= along {
-                    *cell |= bits;
+                    self.sectors[r as usize * self.columns + c as usize] |= bits;
                 }
             }
         }
     }
 
     /// Whether an edge with this normal (to either side) lies at a place.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]
+    #[expect(clippy::cast_possible_truncation, reason = "an angle")]
     pub(super) fn has_edge(&self, at: [f64; 2], normal_rad: f64) -> bool {
+        self.sectors_at(at) & (1 << sector(normal_rad as f32)) != 0
+    }
+
+    /// For each sector of directions, the share of the places in a ring about a circle that have an edge with such a normal:
+    /// what chance makes of a look, on striped cloth much in one direction and little in others.
+    pub(super) fn chances(&self, disc: &Disc, rings: [f64; 2], limits: (f64, f64)) -> Chances {
+        let mut held = [0_u32; SECTORS as usize];
+        for turn in 0..TURNS {
+            let angle = f64::from(turn) / f64::from(TURNS) * std::f64::consts::TAU;
+            for ring in 0..RINGS {
+                let share = (f64::from(ring) + 0.5) / f64::from(RINGS);
+                let radius = disc.radius * (rings[0] + (rings[1] - rings[0]) * share);
+                let bits = self.sectors_at([disc.x + radius * angle.cos(), disc.y + radius * angle.sin()]);
+                for (sector, held) in held.iter_mut().enumerate() {
+                    *held += u32::from(bits >> sector & 1);
+                }
+            }
+        }
+        Chances(held.map(|held| (f64::from(held) / f64::from(TURNS * RINGS)).clamp(limits.0, limits.1)))
+    }
+
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]
+    fn sectors_at(&self, at: [f64; 2]) -> u16 {
         let (column, row) = self.cell_of(at[0] as f32, at[1] as f32);
-        (0..self.columns).contains(&column)
-            && (0..self.rows).contains(&row)
-            && self.sectors[(row * self.columns + column) as usize] & (1 << sector(normal_rad as f32)) != 0
+        let inside = |i: i64| (0..self.columns as i64).contains(&i);
+        if inside(column) && inside(row) { self.sectors[row as usize * self.columns + column as usize] } else { 0 }
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "cells")]
@@ -97,8 +124,7 @@ impl Raster {
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "sectors")]
 fn sector(angle: f32) -> u32 {
-    let half_turns = angle * std::f32::consts::FRAC_1_PI;
-    (((half_turns - half_turns.floor()) * SECTORS as f32) as u32).min(SECTORS - 1)
+    ((angle.rem_euclid(std::f32::consts::PI) / std::f32::consts::PI * SECTORS as f32) as u32).min(SECTORS - 1)
 }
 
 fn sectors_around(angle: f32) -> u16 {

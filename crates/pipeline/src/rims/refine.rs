@@ -15,6 +15,8 @@ const REACH_PX: f64 = 1.2;
 const LEAST_STRENGTH: f64 = 0.3;
 /// Places further from the others than this many deviations belong to something else.
 const OUTLIER: f64 = 3.0;
+/// Cosine of the angle to the direction away from the wearer, beyond which a place is on the near side.
+const NEAR_THIRD: f64 = -0.5;
 /// Samples per pixel of a profile.
 const SAMPLES: f64 = 2.0;
 
@@ -23,25 +25,43 @@ struct Found {
     point_px: Point2<f64>,
     off_px: f64,
     strength: f64,
+    /// Whether it lies towards the wearer, where the container's own wall is behind the rim.
+    is_near: bool,
+    /// Share of the change about it that happens within a pixel to either side (of the reduced scale).
+    sharp: f64,
+}
+
+/// A rim in the full picture.
+pub(super) struct Followed {
+    /// Points along it, in order, where it has an edge.
+    pub points_px: Vec<Point2<f64>>,
+    /// Median over them of the share of the change across the rim that happens within a pixel to either side, of that within
+    /// three (pixels of the reduced scale): a border of things is sharp, one of a shadow is not.
+    pub sharp: f64,
 }
 
 /// Points of the rim in the full picture, in order, where it has an edge.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "places")]
-pub(super) fn follow(picture: &Picture, view: &View, arc: &Arc, factor: usize) -> Vec<Point2<f64>> {
+pub(super) fn follow(picture: &Picture, view: &View, arc: &Arc, factor: usize) -> Followed {
     let perimeter_px = arc.perimeter_px * factor as f64;
     let places = (perimeter_px / SPACING_PX).clamp(PLACES.0, PLACES.1) as usize;
     let found: Vec<Found> = (0..places)
         .map(|i| i as f64 / places as f64)
         .filter(|turn| arc.bins[((turn * BINS as f64) as usize).min(BINS - 1)] != 0)
-        .filter_map(|turn| across(picture, view, arc, turn * std::f64::consts::TAU, REACH_PX * factor as f64))
+        .filter_map(|turn| across(picture, view, arc, turn * std::f64::consts::TAU, factor as f64))
         .collect();
-    let Some(strength) = middle(found.iter().map(|f| f.strength)) else { return Vec::new() };
+    let none = Followed { points_px: Vec::new(), sharp: 0.0 };
+    let Some(strength) = middle(found.iter().map(|f| f.strength)) else { return none };
     let found: Vec<Found> = found.into_iter().filter(|f| f.strength >= LEAST_STRENGTH * strength).collect();
-    let Some(off) = middle(found.iter().map(|f| f.off_px)) else { return Vec::new() };
+    // Edges of the wall just below the rim may be taken for it on the near side: the others say where it is.
+    let sides = |f: &&Found| !f.is_near;
+    let Some(off) = middle(found.iter().filter(sides).map(|f| f.off_px)) else { return none };
     // 1.48: standard deviation over median absolute deviation of a normal distribution.
-    let spread = 1.48 * middle(found.iter().map(|f| (f.off_px - off).abs())).unwrap_or(0.0);
+    let spread = 1.48 * middle(found.iter().filter(sides).map(|f| (f.off_px - off).abs())).unwrap_or(0.0);
     let limit = OUTLIER * spread.max(0.1);
-    found.into_iter().filter(|f| (f.off_px - off).abs() <= limit).map(|f| f.point_px).collect()
+    let sharp = middle(found.iter().map(|f| f.sharp)).unwrap_or(0.0);
+    let points_px = found.into_iter().filter(|f| (f.off_px - off).abs() <= limit).map(|f| f.point_px).collect();
+    Followed { points_px, sharp }
 }
 
 fn middle(values: impl Iterator<Item = f64>) -> Option<f64> {
@@ -51,7 +71,7 @@ fn middle(values: impl Iterator<Item = f64>) -> Option<f64> {
 }
 
 /// The strongest edge across the rim at one angle.
-fn across(picture: &Picture, view: &View, arc: &Arc, angle: f64, reach_px: f64) -> Option<Found> {
+fn across(picture: &Picture, view: &View, arc: &Arc, angle: f64, factor: f64) -> Option<Found> {
     let pixel = |angle: f64| {
         let [x, y] = arc.at(angle);
         view.pixel_of(Point3::new(x, y, 0.0)).ok()
@@ -60,7 +80,7 @@ fn across(picture: &Picture, view: &View, arc: &Arc, angle: f64, reach_px: f64) 
     let along = (pixel(angle + 0.01)? - pixel(angle - 0.01)?).try_normalize(1e-9)?;
     let normal = Vector2::new(-along.y, along.x);
     #[expect(clippy::cast_possible_truncation, reason = "a few pixels")]
-    let half = (reach_px * SAMPLES).ceil() as i32 + 1;
+    let half = (REACH_PX * factor * SAMPLES).ceil() as i32 + 1;
     let sample = |i: i32| colour(picture, here + normal * (f64::from(i) / SAMPLES));
     // Change over two pixels, of the colour that changes most; what is near the prediction counts more.
     let changes: Vec<f64> = (-half..=half)
@@ -81,12 +101,23 @@ fn across(picture: &Picture, view: &View, arc: &Arc, angle: f64, reach_px: f64) 
     let top = 0.5 * (before - after) / (before - 2.0 * at + after);
     #[expect(clippy::cast_precision_loss, reason = "a few pixels")]
     let off_px = (best as f64 - f64::from(half) + top) / SAMPLES;
-    Some(Found { point_px: here + normal * off_px, off_px, strength: at })
+    let point_px = here + normal * off_px;
+    let change = |half_px: f64| {
+        let side = normal * (half_px * factor);
+        let (a, b) = (colour(picture, point_px - side)?, colour(picture, point_px + side)?);
+        Some(a.iter().zip(b).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max))
+    };
+    let sharp = match (change(1.0), change(3.0)) {
+        (Some(within), Some(about)) => (within / about.max(within).max(1.0)).min(1.0),
+        _ => 1.0,
+    };
+    let is_near = (angle - arc.disc.y.atan2(arc.disc.x)).cos() < NEAR_THIRD;
+    Some(Found { point_px, off_px, strength: at, is_near, sharp })
 }
 
 /// Colour at a place between pixels.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "inside the picture")]
-fn colour(picture: &Picture, at: Point2<f64>) -> Option<[f64; 3]> {
+pub(super) fn colour(picture: &Picture, at: Point2<f64>) -> Option<[f64; 3]> {
     let (width, height) = (picture.width_px as usize, picture.height_px as usize);
     if !(at.x >= 0.0 && at.y >= 0.0) {
         return None;

@@ -32,9 +32,10 @@ fn most_oval(view: &View, disc: &Disc) -> f64 {
 
 /// The rims of a picture, the likeliest first.
 pub(super) fn rims(view: &View, buckets: &Buckets) -> Vec<Scored> {
+    let camera_mm = view.pose().camera_height_mm();
     let score = |arc: Arc| {
         let evidence = Evidence::of(view, &arc);
-        Scored { confidence: evidence.confidence(&arc), evidence, arc }
+        Scored { confidence: evidence.rank(), evidence, best: evidence, arc }
     };
     let likely = likely_discs(buckets.edges(), RADII_MM);
     let fitted = |discs: &[&Disc]| -> Vec<Scored> {
@@ -42,7 +43,7 @@ pub(super) fn rims(view: &View, buckets: &Buckets) -> Vec<Scored> {
         distinct(arcs.filter(|arc| arc.disc.radius >= RADII_MM[0]).collect()).into_iter().map(score).collect()
     };
     let peaks: Vec<&Disc> = likely.peaks.iter().collect();
-    let found = select::one_per_container(fitted(&peaks), WORTH_A_TRY);
+    let found = select::one_per_container(fitted(&peaks), camera_mm, WORTH_A_TRY);
     // A fit may end beside the best one, or on an inner edge: whatever was voted for nearby is tried as well, and led outward.
     let polished = found.into_iter().flat_map(|found| {
         let near: Vec<&Disc> = likely.all.iter().filter(|disc| are_near(disc, &found.arc.disc)).collect();
@@ -56,9 +57,9 @@ pub(super) fn rims(view: &View, buckets: &Buckets) -> Vec<Scored> {
         });
         let outer: Vec<Scored> = led.collect();
         tried.extend(outer);
-        select::one_per_container(tried, WORTH_A_TRY).into_iter().take(1)
+        select::one_per_container(tried, camera_mm, WORTH_A_TRY).into_iter().take(1)
     });
-    select::one_per_container(polished.collect(), LEAST_CONFIDENCE)
+    select::one_per_container(polished.collect(), camera_mm, LEAST_CONFIDENCE)
 }
 
 /// Leaves one of those that are the same, with the best support.

@@ -13,9 +13,15 @@ const INDEPENDENT_PX: f64 = 6.0;
 /// A circle nearer to the point under the camera than this multiple of the camera's height is seen from steeply above.
 const STEEP: f64 = 0.3;
 
+/// Numbers that the confidence is worked out from.
+pub const FEATURES: usize = 10;
+/// Weights of [`Evidence::features`] in the logarithm of the odds that a circle is a rim: a logistic regression on rendered
+/// tables (docs/rims.md has the command).
+const CONFIDENCE: [f64; FEATURES] = [-14.53, 4.02, 1.07, 2.57, -5.88, -7.99, -9.41, 6.82, 1.31, 0.93];
+
 /// What speaks for a circle.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Evidence {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Evidence {
     /// Share of the rim that lies in the picture.
     pub visible: f64,
     /// Share of what lies in the picture that has an edge along it.
@@ -28,6 +34,13 @@ pub(super) struct Evidence {
     pub steady: f64,
     /// Common logarithm of the expected number of circles as good as this one in a picture of chance edges.
     pub false_alarms_log10: f64,
+    /// Root mean square distance of the edges from the circle, in pixels of the reduced scale.
+    pub residual_px: f64,
+    /// Mean strength of the edges, in levels per pixel of the reduced scale.
+    pub contrast: f64,
+    /// Share of the change across the rim that happens within a pixel to either side, of that within three (of the reduced
+    /// scale; median): shadows are soft. 1 until the rim has been followed through the full picture.
+    pub sharp: f64,
 }
 
 impl Evidence {
@@ -57,17 +70,43 @@ impl Evidence {
             longest: longest_run(&arc.bins) as f64 / BINS as f64,
             steady,
             false_alarms_log10: TESTS_LOG10 + binomial_tail_log10(trials, coverage, arc.chance),
+            residual_px: arc.residual_px,
+            contrast: arc.contrast,
+            sharp: 1.0,
         }
     }
 
-    /// From 0 to 1: a logistic function of what speaks for it.
-    pub(super) fn confidence(&self, arc: &Arc) -> f64 {
+    /// From 0 to 1: what orders circles while they are searched.
+    pub(super) fn rank(&self) -> f64 {
         let score = 12.0 * (self.coverage * self.visible.sqrt() - 0.58)
             + 0.12 * ((-self.false_alarms_log10).min(60.0) - 18.0)
             + 3.0 * (self.steady - 0.8)
-            - 8.0 * (arc.residual_px - 0.45).max(0.0)
+            - 8.0 * (self.residual_px - 0.45).max(0.0)
             - 8.0 * (0.4 - self.far).max(0.0)
             - 10.0 * (0.2 - self.longest).max(0.0);
+        1.0 / (1.0 + (-score).exp())
+    }
+
+    /// What the confidence is worked out from; see [`CONFIDENCE`].
+    #[must_use]
+    pub fn features(&self) -> [f64; FEATURES] {
+        [
+            1.0,
+            self.coverage * self.visible.sqrt(),
+            (-self.false_alarms_log10).clamp(0.0, 60.0) / 10.0,
+            self.steady,
+            (self.residual_px - 0.45).max(0.0),
+            (0.4 - self.far).max(0.0),
+            (0.2 - self.longest).max(0.0),
+            self.sharp.min(0.8),
+            (self.contrast / 10.0).max(0.1).ln(),
+            self.visible,
+        ]
+    }
+
+    /// From 0 to 1: how often a circle with such evidence is the rim of a container.
+    pub(super) fn confidence(&self) -> f64 {
+        let score: f64 = self.features().iter().zip(CONFIDENCE).map(|(feature, weight)| feature * weight).sum();
         1.0 / (1.0 + (-score).exp())
     }
 }

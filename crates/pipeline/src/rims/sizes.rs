@@ -11,7 +11,7 @@ use super::{Found, HeightSource, Rim, RimHeight};
 const SHARED_PX: f64 = 0.5;
 
 impl Rim {
-    /// The height of the plane that it is measured on: what is known, zero for a plate, else what was found.
+    /// The height of the plane that it is measured on: what is known, else what was found for its kind.
     #[must_use]
     pub fn height_as(&self, container: &Container) -> RimHeight {
         self.found().height_as(container)
@@ -31,12 +31,14 @@ impl Rim {
 }
 
 impl Found {
-    /// The height of the plane that it is measured on: what is known, zero for a plate, else what was found.
+    /// The height of the plane that it is measured on: what is known, else what was found for its kind.
     #[must_use]
     pub fn height_as(&self, container: &Container) -> RimHeight {
         match (container.rim_height_mm, container.kind) {
             (Some(mm), _) => RimHeight { mm, sigma_mm: 0.0, source: HeightSource::Given },
-            (None, Kind::Plate) => RimHeight { mm: 0.0, sigma_mm: 0.0, source: HeightSource::Given },
+            (None, Kind::Plate) => {
+                self.plate_height.unwrap_or(RimHeight { mm: 0.0, sigma_mm: 0.0, source: HeightSource::Given })
+            }
             (None, Kind::Bowl | Kind::Box) => self.height,
         }
     }
@@ -70,7 +72,7 @@ impl Found {
             let shared = 2.0 * SHARED_PX * std::f64::consts::PI * measured.predicted_mm / self.perimeter_px;
             *sigma = sigma.with_marks(sigma.marks_mm.hypot(by_height).hypot(shared));
         }
-        if height.source != HeightSource::Given {
+        if height.source != HeightSource::Given && container.kind != Kind::Plate {
             sizes.insert(0, (Quantity::Height, Ok(height.estimate(method))));
         }
         sizes

@@ -68,6 +68,7 @@ pub(super) struct MeasureParts<'a> {
 struct SearchParts<'a> {
     version: u32,
     min_confidence: f64,
+    min_diameter_mm: f64,
     camera: &'a CameraSpec,
 }
 
@@ -101,6 +102,7 @@ impl<'a> MeasureParts<'a> {
             search: source.searches().then_some(SearchParts {
                 version: rims::VERSION,
                 min_confidence: spec.marks.min_confidence,
+                min_diameter_mm: spec.marks.min_diameter_mm,
                 camera: &prepared.source.camera_spec,
             }),
         }

@@ -24,7 +24,8 @@ pub(super) fn estimates(
     }
     let sizes = found.sizes(view, method, container, marked.marks, inputs);
     // What bowls commonly have is no measurement; and the foot was found by exact geometry, not by the paper's.
-    let is_seen = found.height_as(container).source == HeightSource::Foot && method == Method::Ray;
+    let source = found.height_as(container).source;
+    let is_seen = matches!(source, HeightSource::Foot | HeightSource::Floor) && method == Method::Ray;
     let kept = sizes.into_iter().filter(|(quantity, _)| *quantity != Quantity::Height || is_seen);
     kept.map(|(quantity, size)| (quantity, size.map(|estimate| with_shared(estimate, &marked.inputs)))).collect()
 }

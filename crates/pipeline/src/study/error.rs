@@ -123,6 +123,7 @@ impl StudySpec {
         in_range("signals.range_update_s", signals.range_update_s, 0.001, 1.0, "0.001 to 1 s")?;
         in_range("time.image_lag_s", self.time.image_lag_s, -86_400.0, 86_400.0, "-86400 to 86400 s (a day)")?;
         in_range("marks.min_confidence", self.marks.min_confidence, 0.0, 1.0, "0 to 1")?;
+        in_range("marks.min_diameter_mm", self.marks.min_diameter_mm, 0.0, 1000.0, "0 to 1000 mm")?;
         in_range("select.target_pitch_deg", select.target_pitch_deg, 0.0, 90.0, "0 to 90 degrees")?;
         if let Some(offset) = self.mount.pitch_offset_deg {
             in_range("mount.pitch_offset_deg", offset, -90.0, 90.0, "-90 to 90 degrees")?;

@@ -6,6 +6,7 @@ use model::{Kind, Method, Note, Quantity, Selection, TableLayout};
 use serde::{Deserialize, Serialize};
 
 use super::{MarksSource, UncertaintySpec};
+use crate::rims::LEAST_DIAMETER_MM;
 
 /// The version of study.toml that this program reads.
 pub(crate) const STUDY_SCHEMA_VERSION: u32 = 1;
@@ -68,11 +69,13 @@ pub struct MarksSpec {
     pub source: MarksSource,
     /// Rims that the program finds with less confidence are left out.
     pub min_confidence: f64,
+    /// Rims that the program finds and that are narrower, in mm, are left out: cups, mugs and drinking glasses.
+    pub min_diameter_mm: f64,
 }
 
 impl Default for MarksSpec {
     fn default() -> Self {
-        Self { camera: None, source: MarksSource::default(), min_confidence: 0.5 }
+        Self { camera: None, source: MarksSource::default(), min_confidence: 0.5, min_diameter_mm: LEAST_DIAMETER_MM }
     }
 }
 

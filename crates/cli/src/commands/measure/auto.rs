@@ -63,6 +63,7 @@ fn found(rim: &Rim, container: &Container) -> Found {
         rim_height_from: match rim.height_as(container).source {
             HeightSource::Given => "given",
             HeightSource::Foot => "foot",
+            HeightSource::Floor => "floor",
             HeightSource::Common => "common",
         },
     }

@@ -121,7 +121,7 @@ impl Search<'_> {
         Ok(sure.filter_map(|rim| self.seen(number, frame, &view, rim)).collect())
     }
 
-    /// None of a rim that has no size, or that the marks camera would not show.
+    /// None of a rim that has no size, or one of a cup, or that the marks camera would not show.
     fn seen(&self, number: usize, frame: &Frame, view: &View, rim: &Rim) -> Option<Seen> {
         let (camera, marks_camera) = (&self.prepared.camera, &self.prepared.marks_camera.1);
         let points_px: Vec<[f64; 2]> =
@@ -132,6 +132,9 @@ impl Search<'_> {
         let container = container_of(&found);
         let sizes = rim.sizes(view, Method::Ray, &container, &inputs_of(self.study, frame));
         let diameter = sizes.into_iter().find(|(quantity, _)| *quantity == Quantity::Diameter)?.1.ok()?;
+        if diameter.measured.predicted_mm < self.study.spec.marks.min_diameter_mm {
+            return None;
+        }
         let lower = 1.0 - rim.height_as(&container).mm / view.pose().camera_height_mm();
         let sighting = Sighting {
             image: number,

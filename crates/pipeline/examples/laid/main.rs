@@ -4,8 +4,11 @@
 //! cargo run -p aim-batch-pipeline --example laid -- SEED [BENCHES [WORN_SESSIONS [IMAGES [WIDTH]]]]
 //! ```
 //!
-//! Prints tables. With AIM_BATCH_LAID_PICTURES=DIR every picture is kept there as JPEG. With AIM_BATCH_LAID_CSV=FILE, one
-//! line per rim found, drinking glasses' left out: confidence, right or not.
+//! Prints tables. With AIM_BATCH_LAID_PICTURES=DIR every picture is kept there as JPEG, and taken from there if it is there
+//! already. With AIM_BATCH_LAID_CSV=FILE, one line per rim found, drinking glasses' left out: picture, confidence, right or
+//! not, what its confidence is worked out from (for the example `confidence`).
+
+mod tables;
 
 use std::error::Error;
 use std::io::Write as _;
@@ -13,11 +16,11 @@ use std::sync::Arc;
 
 use ingest::Picture;
 use model::{Container, InputSigma, Kind, Method, Quantity, Shape, View};
-use nalgebra::Point2;
+use nalgebra::{Point2, Point3};
 use rayon::prelude::*;
 use simulate::laid::{self, Frame, Truth};
 
-use aim_batch_pipeline::rims::{HeightSource, Rim, find_rims};
+use aim_batch_pipeline::rims::{FEATURES, HeightSource, LEAST_DIAMETER_MM, Rim, find_rims};
 
 /// A rim is found from this confidence on.
 const LEAST_CONFIDENCE: f64 = 0.5;
@@ -25,8 +28,9 @@ const LEAST_CONFIDENCE: f64 = 0.5;
 const RIGHT: f64 = 0.12;
 /// A container is in view if so much of its rim is in the picture and seen.
 const IN_VIEW: f64 = 0.6;
-/// The selection's window of pitch.
-const WINDOW_DEG: (f64, f64) = (47.5, 62.5);
+/// A foot shows if so much of its circle is seen; of as many places.
+const FOOT_SEEN: f64 = 0.15;
+const PLACES: u32 = 72;
 
 /// One round container of a picture, and what was found of it.
 struct Case {
@@ -34,6 +38,8 @@ struct Case {
     kind: Kind,
     pitch_deg: f64,
     in_view: bool,
+    /// Whether some of the foot is seen below the rim.
+    shows_foot: bool,
     found: Option<Found>,
 }
 
@@ -44,20 +50,31 @@ struct Found {
     diameter: f64,
     /// With nothing given: plates on the table, bowls at the height found.
     diameter_alone: f64,
+    /// Height of the rim.
     height: f64,
-    from_foot: bool,
+    /// The same in its standard uncertainties.
+    height_sigmas: f64,
+    /// Not only what is common.
+    is_height_seen: bool,
 }
 
-/// Which cases a line of a table counts.
-type Keep = fn(&Case) -> bool;
+/// A rim found.
+struct Judged {
+    confidence: f64,
+    features: [f64; FEATURES],
+    is_right: bool,
+    /// Too narrow for a run to keep it.
+    is_cup: bool,
+}
 
 /// What was found in one picture.
 struct Report {
     cases: Vec<Case>,
-    /// Confidence of each rim that is not a drinking glass's, and whether it is one of a container.
-    rims: Vec<(f64, bool)>,
-    /// Drinking glasses taken for containers.
-    glasses: usize,
+    name: String,
+    /// Each rim that is not a drinking glass's, and whether it is one of a container.
+    rims: Vec<Judged>,
+    /// Drinking glasses found, and those of them that a run would keep.
+    glasses: [usize; 2],
     /// No container at all.
     is_bare: bool,
 }
@@ -73,37 +90,41 @@ fn main() -> Result<(), Box<dyn Error>> {
         (0..benches).flat_map(|at| laid::bench(seed * 1000 + at, width)).flat_map(|plan| plan.frames).collect();
     let worn = laid::worn(seed, width, usize::try_from(sessions)?, usize::try_from(images)?);
     let worn: Vec<Frame> = worn.into_iter().flat_map(|plan| plan.frames).collect();
-    let mut rims = Vec::new();
+    let (mut rims, mut csv) = (Vec::new(), String::new());
     for (name, frames) in [("bench", bench), ("worn", worn)] {
         let examine = |(at, frame): (usize, &Frame)| {
             let view = frame.view(&camera).map_err(|e| e.to_string())?;
-            examine(frame, &view, &format!("{name}-{seed}-{at:03}"))
+            examine(frame, &view, &format!("{name}-{width}-{seed}-{at:03}"))
         };
         let reports = frames.par_iter().enumerate().map(examine).collect::<Result<Vec<Report>, String>>()?;
-        write!(out, "{}", summary(name, &reports))?;
+        write!(out, "{}", tables::summary(name, &reports))?;
+        csv.extend(reports.iter().flat_map(|report| report.rims.iter().map(|rim| rim.csv(&report.name))));
         rims.extend(reports.into_iter().flat_map(|report| report.rims));
     }
-    write!(out, "{}", reliability(&rims))?;
+    write!(out, "{}", tables::reliability(&rims))?;
     if let Ok(file) = std::env::var("AIM_BATCH_LAID_CSV") {
-        let lines: Vec<String> = rims.iter().map(|(c, right)| format!("{c:.5},{}", u8::from(*right))).collect();
-        std::fs::write(file, lines.join("\n"))?;
+        std::fs::write(file, csv)?;
     }
     Ok(())
 }
 
 fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
-    let jpeg = frame.photograph(view).to_jpeg(name).map_err(|e| e.to_string())?;
-    if let Ok(folder) = std::env::var("AIM_BATCH_LAID_PICTURES") {
-        std::fs::write(format!("{folder}/{name}.jpg"), &jpeg).map_err(|e| e.to_string())?;
-    }
+    let jpeg = jpeg(frame, view, name)?;
     let picture = Picture::decode(&jpeg).map_err(|e| e.to_string())?;
     let rims = find_rims(&picture, view).map_err(|e| e.to_string())?;
     let truths = frame.truths(view);
     let (others, glasses): (Vec<&Rim>, Vec<&Rim>) =
         rims.iter().partition(|rim| truths.iter().any(|t| is_of(rim, t, view)) || !is_of_glass(rim, frame, view));
-    let glasses = glasses.iter().filter(|rim| rim.confidence >= LEAST_CONFIDENCE).count();
-    let judged =
-        others.iter().map(|rim| (rim.confidence, truths.iter().any(|truth| is_of(rim, truth, view)))).collect();
+    let is_cup = |rim: &Rim| rim.diameter_mm(view) < LEAST_DIAMETER_MM;
+    let sure = || glasses.iter().filter(|rim| rim.confidence >= LEAST_CONFIDENCE);
+    let glasses = [sure().count(), sure().filter(|rim| !is_cup(rim)).count()];
+    let judged = others.iter().map(|rim| Judged {
+        confidence: rim.confidence,
+        features: rim.evidence.features(),
+        is_right: truths.iter().any(|truth| is_of(rim, truth, view)),
+        is_cup: is_cup(rim),
+    });
+    let judged = judged.collect();
     let cases = truths.iter().filter(|truth| truth.kind != Kind::Box).map(|truth| {
         let sure = rims.iter().filter(|rim| rim.confidence >= LEAST_CONFIDENCE && is_of(rim, truth, view));
         let best = sure.max_by(|a, b| a.confidence.total_cmp(&b.confidence));
@@ -112,10 +133,39 @@ fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
             kind: truth.kind,
             pitch_deg: frame.head.pitch_deg,
             in_view: truth.rim_seen >= IN_VIEW,
+            shows_foot: foot_seen(frame, truth.object, view) >= FOOT_SEEN,
             found: best.and_then(|rim| found(rim, truth, view)),
         }
     });
-    Ok(Report { cases: cases.collect(), rims: judged, glasses, is_bare: truths.is_empty() })
+    Ok(Report { name: name.to_owned(), cases: cases.collect(), rims: judged, glasses, is_bare: truths.is_empty() })
+}
+
+/// The picture, from the folder where it is kept, or taken.
+fn jpeg(frame: &Frame, view: &View, name: &str) -> Result<Vec<u8>, String> {
+    let taken = || frame.photograph(view).to_jpeg(name).map_err(|e| e.to_string());
+    let Ok(folder) = std::env::var("AIM_BATCH_LAID_PICTURES") else { return taken() };
+    let file = format!("{folder}/{name}.jpg");
+    match std::fs::read(&file) {
+        Ok(jpeg) => Ok(jpeg),
+        Err(_) => {
+            let jpeg = taken()?;
+            std::fs::write(&file, &jpeg).map_err(|e| e.to_string())?;
+            Ok(jpeg)
+        }
+    }
+}
+
+/// Share of the foot's circle on the table that is seen.
+fn foot_seen(frame: &Frame, object: &str, view: &View) -> f64 {
+    let Some(placed) = frame.placed.iter().find(|placed| placed.object == object) else { return 0.0 };
+    let (stand, up) = (frame.stand.0, view.pose().camera_height_mm());
+    let places = (0..PLACES).map(|i| f64::from(i) / f64::from(PLACES) * std::f64::consts::TAU);
+    let seen = places.filter(|angle| {
+        let out = 0.5 * placed.ware.foot_mm;
+        let at = Point3::new(placed.at_mm.x + out * angle.cos(), placed.at_mm.y + out * angle.sin(), 0.5);
+        frame.world.is_seen(Point3::new(stand.x, stand.y, up), at, 2.0)
+    });
+    seen.count() as f64 / f64::from(PLACES)
 }
 
 /// Whether a rim is a level circle of a drinking glass: its rim, its foot, or what it holds.
@@ -152,83 +202,21 @@ fn found(rim: &Rim, truth: &Truth, view: &View) -> Option<Found> {
         let diameter = sizes.into_iter().find(|(quantity, _)| *quantity == Quantity::Diameter)?;
         Some(diameter.1.ok()?.measured.predicted_mm)
     };
+    let container = Container { kind: truth.kind, shape: Shape::Circle, rim_height_mm: None, wall: None };
+    let height = rim.height_as(&container);
     Some(Found {
         diameter: size_mm(Some(truth.rim_level_mm))? / truth_mm - 1.0,
         diameter_alone: size_mm(None)? / truth_mm - 1.0,
-        height: rim.height.mm / truth.true_height_mm - 1.0,
-        from_foot: rim.height.source == HeightSource::Foot,
+        height: height.mm / truth.rim_level_mm - 1.0,
+        height_sigmas: (height.mm - truth.rim_level_mm) / height.sigma_mm,
+        is_height_seen: height.source != HeightSource::Common,
     })
 }
 
-fn summary(name: &str, reports: &[Report]) -> String {
-    let cases: Vec<&Case> = reports.iter().flat_map(|report| &report.cases).filter(|case| case.in_view).collect();
-    let mut text = format!("{name}: {} pictures, {} round containers in view\n", reports.len(), cases.len());
-    let rows: [(&str, Keep); 5] = [
-        ("all", |_| true),
-        ("pitch in the window", |c| (WINDOW_DEG.0..WINDOW_DEG.1).contains(&c.pitch_deg)),
-        ("at 55 degrees (50 to 60)", |c| (50.0..60.0).contains(&c.pitch_deg)),
-        ("plates", |c| c.kind == Kind::Plate),
-        ("bowls", |c| c.kind == Kind::Bowl),
-    ];
-    for (label, keep) in rows {
-        let kept: Vec<&&Case> = cases.iter().filter(|case| keep(case)).collect();
-        text += &line(label, &kept);
+:crates/pipeline/examples/laid/main.rs
+impl Judged {
+    fn csv(&self, picture: &str) -> String {
+        let features: Vec<String> = self.features.iter().map(|feature| format!("{feature:.5}")).collect();
+        format!("{picture},{:.5},{},{}\n", self.confidence, u8::from(self.is_right), features.join(","))
     }
-    let mut objects: Vec<&str> = cases.iter().map(|case| &*case.object).collect();
-    objects.sort_unstable();
-    objects.dedup();
-    for object in objects {
-        text += &line(object, &cases.iter().filter(|case| *case.object == *object).collect::<Vec<_>>());
-    }
-    let false_in = |report: &&Report| report.rims.iter().any(|(c, right)| *c >= LEAST_CONFIDENCE && !right);
-    let bare: Vec<&Report> = reports.iter().filter(|report| report.is_bare).collect();
-    text += &format!(
-        "  false rims: in {} of {} pictures without a container, in {} of {} with; and of drinking glasses: {}\n",
-        bare.iter().filter(|r| false_in(r)).count(),
-        bare.len(),
-        reports.iter().filter(|r| !r.is_bare).filter(false_in).count(),
-        reports.len() - bare.len(),
-        reports.iter().map(|r| r.glasses).sum::<usize>(),
-    );
-    text
-}
-
-fn line(label: &str, cases: &[&&Case]) -> String {
-    let found: Vec<Found> = cases.iter().filter_map(|case| case.found).collect();
-    let quantiles = |values: Vec<f64>| match (quantile(&values, 0.5), quantile(&values, 0.95)) {
-        (Some(median), Some(q95)) => format!("{:.2} / {:.2} %", 100.0 * median, 100.0 * q95),
-        _ => "-".to_owned(),
-    };
-    let of = |size: &dyn Fn(&Found) -> f64| quantiles(found.iter().map(|f| size(f).abs()).collect());
-    let diameters: Vec<f64> = found.iter().map(|f| f.diameter).collect();
-    let signed = quantile(&diameters, 0.5).map_or_else(|| "-".to_owned(), |median| format!("{:+.2} %", 100.0 * median));
-    let feet = found.iter().filter(|f| f.from_foot).map(|f| f.height.abs()).collect();
-    format!(
-        "  {label:26} found {:3} of {:3}  |diameter| median / q95: {} (level given; signed median {}), {} (nothing given)  |height|: {}\n",
-        found.len(),
-        cases.len(),
-        of(&|f| f.diameter),
-        signed,
-        of(&|f| f.diameter_alone),
-        quantiles(feet),
-    )
-}
-
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "an index")]
-fn quantile(values: &[f64], p: f64) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get((p * (sorted.len().checked_sub(1)?) as f64).round() as usize).copied()
-}
-
-/// Of the rims in each band of confidence, how many are right.
-fn reliability(rims: &[(f64, bool)]) -> String {
-    let bands = [0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 1.01];
-    let rows = bands.windows(2).map(|band| {
-        let inside: Vec<bool> =
-            rims.iter().filter(|(c, _)| (band[0]..band[1]).contains(c)).map(|(_, right)| *right).collect();
-        let right = inside.iter().filter(|right| **right).count();
-        format!("  {:.2} to {:.2}: {right} of {} right\n", band[0], band[1].min(1.0), inside.len())
-    });
-    std::iter::once("confidence\n".to_owned()).chain(rows).collect()
 }
