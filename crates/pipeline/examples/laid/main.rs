@@ -213,7 +213,6 @@ fn found(rim: &Rim, truth: &Truth, view: &View) -> Option<Found> {
     })
 }
 
-:crates/pipeline/examples/laid/main.rs
 impl Judged {
     fn csv(&self, picture: &str) -> String {
         let features: Vec<String> = self.features.iter().map(|feature| format!("{feature:.5}")).collect();
