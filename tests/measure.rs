@@ -232,7 +232,7 @@ fn a_rim_is_found_without_marks() {
     paint_disc(&scene.path("picture.png"));
     let (camera, picture, overlay) = (scene.path("cam.toml"), scene.path("picture.png"), scene.path("overlay.png"));
     let found = |more: &[&str]| run([&["measure", &picture, "--camera", &camera, "--auto"], &POSE[..], more].concat());
-    let output = found(&["--kind=plate", "--json", "--overlay", &overlay]);
+    let output = found(&["--kind=plate", "--rim-height=0", "--json", "--overlay", &overlay]);
     assert_exit(&output, 0);
     let rows: Vec<Value> = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(rows.len(), 2, "one diameter by each method");
