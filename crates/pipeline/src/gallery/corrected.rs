@@ -65,7 +65,7 @@ mod tests {
             LensModel::Division(Division { lambda: -0.35 }),
             LensModel::Fisheye(Fisheye { k1: -0.01, k2: 0.001, k3: 0.0, k4: 0.0 }),
         ] {
-            let camera = Camera::new([1600, 1200], [700.0, 700.0], [810.0, 590.0], 0.0, lens).unwrap();
+            let camera = Camera::new([1600, 1200], [760.0, 760.0], [810.0, 590.0], 0.0, lens).unwrap();
             let straight = straight(&camera).unwrap();
             assert_eq!(straight.size_px(), [640, 480]);
             // A line in space, seen by one camera and carried to the other's picture.

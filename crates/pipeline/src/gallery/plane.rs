@@ -66,7 +66,7 @@ impl Sheet {
         if !(extent.x.is_finite() && extent.y.is_finite()) {
             return None;
         }
-        let margin = (MARGIN * extent.max()).max(LEAST_MARGIN_MM);
+        let margin = (MARGIN * extent.max().min(MOST_MM)).max(LEAST_MARGIN_MM);
         let sides_mm = extent.map(|side| (side + 2.0 * margin).min(MOST_MM));
         // What is cut off is what lies furthest away; aside it is cut on both sides.
         let left_mm = 0.5 * (low.x + high.x) - 0.5 * sides_mm.x;
@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn a_mark_near_the_horizon_does_not_make_the_rest_tiny() {
         let found = sheet(&[[0.0, 300.0], [100.0, 400.0], [0.0, 90_000.0]]).unwrap_or_else(|| panic!("a sheet"));
-        assert!(found.size_px == [77, 640] && found.mm_per_px < 2.4, "{found:?}");
+        assert!(found.size_px == [235, 640] && found.mm_per_px < 2.4, "{found:?}");
         let [_, y] = found.pixel_of(Point2::new(0.0, 300.0));
         assert!((0.0..640.0).contains(&y), "what is near is in it");
         assert_eq!(sheet(&[]), None);
