@@ -20,8 +20,7 @@ impl Python {
         let started = Command::new(&program).arg(script).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
         let mut child = started.ok()?;
         let questions = child.stdin.take()?;
-        let mut python =
-            Self { answers: BufReader::new(child.stdout.take()?), child, questions, says: String::new() };
+        let mut python = Self { answers: BufReader::new(child.stdout.take()?), child, questions, says: String::new() };
         match python.line().trim().strip_prefix("ready") {
             Some(says) => python.says = says.trim().to_owned(),
             None => {

@@ -61,7 +61,9 @@ fn scenes() -> [(&'static str, Frame); 3] {
     let mut bench = laid::bench(SEED, WIDTH_PX).into_iter().flat_map(|plan| plan.frames);
     // The selection's window of pitch.
     let is_selected = |frame: &Frame| (47.5..62.5).contains(&frame.head.pitch_deg);
-    let crowded = worn().filter(is_selected).max_by_key(|frame| (frame.placed.len() + frame.vessels.len(), frame.world.bodies.len()));
+    let crowded = worn()
+        .filter(is_selected)
+        .max_by_key(|frame| (frame.placed.len() + frame.vessels.len(), frame.world.bodies.len()));
     let plate = bench.find(|f| f.placed[0].ware.kind == Kind::Plate && f.vessels.is_empty() && is_selected(f));
     let empty = worn().find(|frame| frame.placed.is_empty() && is_selected(frame));
     [("crowded table", crowded.unwrap()), ("plain plate", plate.unwrap()), ("empty table", empty.unwrap())]

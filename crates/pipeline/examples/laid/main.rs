@@ -133,7 +133,7 @@ fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
             kind: truth.kind,
             pitch_deg: frame.head.pitch_deg,
             in_view: truth.rim_seen >= IN_VIEW,
-            shows_foot: foot_seen(frame, truth.object, view) >= FOOT_SEEN,
+            shows_foot: foot_seen(frame, &truth.object, view) >= FOOT_SEEN,
             found: best.and_then(|rim| found(rim, truth, view)),
         }
     });
@@ -157,7 +157,7 @@ fn jpeg(frame: &Frame, view: &View, name: &str) -> Result<Vec<u8>, String> {
 
 /// Share of the foot's circle on the table that is seen.
 fn foot_seen(frame: &Frame, object: &str, view: &View) -> f64 {
-    let Some(placed) = frame.placed.iter().find(|placed| placed.object == object) else { return 0.0 };
+    let Some(placed) = frame.placed.iter().find(|placed| *placed.object == *object) else { return 0.0 };
     let (stand, up) = (frame.stand.0, view.pose().camera_height_mm());
     let places = (0..PLACES).map(|i| f64::from(i) / f64::from(PLACES) * std::f64::consts::TAU);
     let seen = places.filter(|angle| {
@@ -213,7 +213,6 @@ fn found(rim: &Rim, truth: &Truth, view: &View) -> Option<Found> {
     })
 }
 
-:crates/pipeline/examples/laid/main.rs
 impl Judged {
     fn csv(&self, picture: &str) -> String {
         let features: Vec<String> = self.features.iter().map(|feature| format!("{feature:.5}")).collect();

@@ -25,7 +25,7 @@ pub fn summary(name: &str, reports: &[Report]) -> String {
         let kept: Vec<&&Case> = cases.iter().filter(|case| keep(case)).collect();
         text += &line(label, &kept);
     }
-    let mut objects: Vec<&str> = cases.iter().map(|case| case.object).collect();
+    let mut objects: Vec<&str> = cases.iter().map(|case| &*case.object).collect();
     objects.sort_unstable();
     objects.dedup();
     for object in objects {

@@ -24,11 +24,27 @@ const RINGS: u32 = 16;
 /// Chance of an edge that means nothing, by the direction of its normal.
 pub(super) struct Chances([f64; SECTORS as usize]);
 
+/// What places say that show an edge at a given share of them: for each direction of the normal, the logarithm of how much
+/// likelier it is than by chance that no edge is seen there, and that one is.
+pub(super) struct Odds([[f64; 2]; SECTORS as usize]);
+
 impl Chances {
-    /// For a normal in this direction, to either side.
-    #[expect(clippy::cast_possible_truncation, reason = "an angle")]
-    pub(super) fn of(&self, normal_rad: f64) -> f64 {
-        self.0[sector(normal_rad as f32) as usize]
+    pub(super) fn odds(&self, shows: f64) -> Odds {
+        Odds(self.0.map(|chance| {
+            let shows = shows.max(chance); // an edge speaks against nothing
+            [((1.0 - shows) / (1.0 - chance)).ln(), (shows / chance).ln()]
+        }))
+    }
+}
+
+/// A direction of normals, to either side.
+#[derive(Clone, Copy)]
+pub(super) struct Sector(u8);
+
+impl Sector {
+    #[expect(clippy::cast_possible_truncation, reason = "an angle, a few sectors")]
+    pub(super) fn of(normal_rad: f64) -> Self {
+        Self(sector(normal_rad as f32) as u8)
     }
 }
 
@@ -85,10 +101,9 @@ impl Raster {
         }
     }
 
-    /// Whether an edge with this normal (to either side) lies at a place.
-    #[expect(clippy::cast_possible_truncation, reason = "an angle")]
-    pub(super) fn has_edge(&self, at: [f64; 2], normal_rad: f64) -> bool {
-        self.sectors_at(at) & (1 << sector(normal_rad as f32)) != 0
+    /// What an edge with such a normal says at a place, or that there is none.
+    pub(super) fn says(&self, at: [f64; 2], normal: Sector, odds: &Odds) -> f64 {
+        odds.0[usize::from(normal.0)][usize::from(self.sectors_at(at) >> normal.0 & 1)]
     }
 
     /// For each sector of directions, the share of the places in a ring about a circle that have an edge with such a normal:
