@@ -205,7 +205,7 @@ fn the_same_bytes_however_a_run_came_about() {
 }
 
 /// The picture as PNG, whole by its checksums, with a first block that is not zlib's.
-fn undecodable(jpeg: &[u8]) -> Vec<u8> {
+pub fn undecodable(jpeg: &[u8]) -> Vec<u8> {
     let mut png = std::io::Cursor::new(Vec::new());
     image::load_from_memory(jpeg).unwrap().write_to(&mut png, image::ImageFormat::Png).unwrap();
     let mut png = png.into_inner();

@@ -45,6 +45,8 @@ fn links_lead_somewhere() {
         "docs/inspect.md",
         "docs/marks.md",
         "docs/rims.md",
+        "docs/report.md",
+        "docs/viewers.md",
         "docs/simulate.md",
     ] {
         let folder = root().join(document).parent().unwrap().to_owned();

@@ -15,17 +15,18 @@ const LAYERS: [(&str, &[&str]); 6] = [
 ];
 
 /// Crates with few homes, and why.
-const HOMES: [(&[&str], &[&str], &str); 8] = [
+const HOMES: [(&[&str], &[&str], &str); 9] = [
     (&["mcap", "foxglove", "prost"], &["ingest"], "only ingest knows what a recording looks like inside"),
     (
-        // simulate writes pictures, which is no decoding.
+        // simulate writes pictures, which is no decoding; ingest writes small ones for reports and viewers.
         &["image", "jpeg-encoder"],
         &["ingest", "simulate"],
-        "pictures are decoded by ingest alone; simulate encodes those that it renders",
+        "pictures are decoded and reduced by ingest alone; simulate encodes those that it renders",
     ),
     (&["zune-jpeg", "turbojpeg", "png", "kamadak-exif"], &["ingest"], "pictures are decoded by ingest alone"),
     (&["rayon"], &["pipeline", "simulate"], "work is shared out by pipeline over sessions, and by simulate's renderer"),
     (&["rusqlite", "redb"], &["pipeline"], "what is kept between runs is pipeline's alone"),
+    (&["askama"], &["report"], "pages and figures are made from results alone"),
     (&["quick-xml"], &["pipeline"], "XML is a format of marks alone, from CVAT"),
     (&["polars", "arrow", "parquet"], &["report"], "it is most of the build, and rows go through model::ResultSink"),
     (

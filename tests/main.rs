@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "what was measured, and what was skipped, shows with --nocapture")]
 
+mod annotate;
 mod auto;
 mod bad_input;
 mod calibrate;
@@ -12,6 +13,7 @@ mod documents;
 mod faults;
 mod figures;
 mod flow;
+mod gallery;
 mod inspect;
 mod large;
 mod layers;

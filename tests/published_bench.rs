@@ -35,6 +35,27 @@ fn tables_ii_to_vi_come_out_as_published() {
 }
 
 #[test]
+fn the_page_has_pictures_and_report_makes_the_same_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    assert_exit(&run_bench(&path("r.parquet"), &["--report", path("one").to_str().unwrap()]), 0);
+    let report = |to: &str| {
+        run(["report", path("r.parquet").to_str().unwrap(), "-o", path(to).to_str().unwrap()].map(str::to_owned))
+    };
+    assert_exit(&report("two"), 0);
+    let page = |of: &str| std::fs::read_to_string(path(of).join("index.html")).unwrap();
+    assert!(page("one") == page("two"), "the results and the work folder give the same page");
+    assert!(page("one").contains("data:image/jpeg;base64,") && page("one").contains("proves nothing about accuracy"));
+    assert!(page("one").len() < 10_000_000);
+
+    std::fs::remove_dir_all(path("r.work")).unwrap();
+    let without = report("three");
+    assert_exit(&without, 0);
+    assert!(stderr(&without).contains("no pictures in the report"), "{}", stderr(&without));
+    assert!(!page("three").contains("data:image/jpeg") && page("three").contains("Table VI"));
+}
+
+#[test]
 fn jobs_and_a_second_run_do_not_change_a_byte() {
     let folder = tempfile::tempdir().unwrap();
     let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();

@@ -1,16 +1,20 @@
 //! The command line.
 
 mod marks;
+mod picture;
+mod simulate;
 
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use clap::{Parser, Subcommand, ValueEnum};
-use model::{Kind, Method, Shape, Wall};
+use clap::{Parser, Subcommand};
+use model::Method;
 use pipeline::study::MarksSource;
 
 use crate::logging::LogFormat;
 pub use marks::{MarksArgs, MarksExportArgs, MarksFormat, MarksImportArgs, MarksWay};
+pub use picture::{MeasureArgs, PoseArgs, ProjectArgs};
+pub use simulate::{LargeArgs, Made, Preset, SimulateArgs};
 
 /// Measures plates and bowls in recordings of a camera worn on eyeglasses.
 ///
@@ -92,7 +96,11 @@ pub struct RunArgs {
     /// there stay as they are
     #[arg(long, value_name = "DIR")]
     pub write_marks: Option<PathBuf>,
-    /// Also write the tables to this folder (CSV, Markdown, LaTeX)
+    /// Also write recordings with marks, sizes and signals for Foxglove and Rerun (docs/viewers.md):
+    /// WORK/annotated/SESSION.annotated.mcap
+    #[arg(long)]
+    pub annotate: bool,
+    /// Also write the report to this folder: index.html, and the tables as CSV, Markdown and LaTeX
     #[arg(long, env = "AIM_BATCH_REPORT")]
     pub report: Option<PathBuf>,
     /// Settings in place of study.toml's
@@ -258,157 +266,12 @@ pub struct IngestArgs {
 pub struct ReportArgs {
     /// results.parquet of a run; the ledger of images, frames.parquet, is looked for beside it
     pub results: PathBuf,
-    /// Folder for the tables (CSV, Markdown, LaTeX); without it they are only printed
+    /// Folder for the report: index.html, and the tables as CSV, Markdown and LaTeX; without it they are only printed
     #[arg(short, long)]
     pub out: Option<PathBuf>,
-}
-
-/// Where the camera is, for `project` and `measure`.
-#[derive(Debug, clap::Args)]
-pub struct PoseArgs {
-    /// Camera file (docs/devices.md), or a built-in camera (aim2-raw, aim2-corrected)
-    #[arg(long, value_name = "CAM.toml")]
-    pub camera: PathBuf,
-    /// Depression of the optical axis below the horizontal, in degrees
-    #[arg(long, value_name = "DEG")]
-    pub pitch: f64,
-    /// Roll, positive clockwise as the wearer sees it, in degrees
-    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
-    pub roll: f64,
-    /// Distance to the table along the optical axis, in mm
-    #[arg(long, value_name = "MM")]
-    pub range: f64,
-}
-
-/// `project`.
-#[derive(Debug, clap::Args)]
-pub struct ProjectArgs {
-    /// Where the camera is
-    #[command(flatten)]
-    pub pose: PoseArgs,
-    /// Height of the plane above the table, in mm
-    #[arg(long, value_name = "MM", default_value_t = 0.0)]
-    pub plane_z: f64,
-    /// From the plane to pixels: reads world_x_mm,world_y_mm
-    #[arg(long)]
-    pub inverse: bool,
-}
-
-/// `measure`.
-#[derive(Debug, clap::Args)]
-pub struct MeasureArgs {
-    /// The picture
-    pub image: PathBuf,
-    /// Where the camera is
-    #[command(flatten)]
-    pub pose: PoseArgs,
-    /// What it is: plate (on the table), bowl or box (with a height); with --auto, default: as it looks
-    #[arg(long, required_unless_present = "auto")]
-    pub kind: Option<Kind>,
-    /// Its outline; default: circle for plates and bowls, rectangle for boxes
-    #[arg(long)]
-    pub shape: Option<Shape>,
-    /// Marks, as a LabelMe file (docs/study.md)
-    #[arg(long, value_name = "FILE.json", required_unless_present = "auto", conflicts_with = "auto")]
-    pub marks: Option<PathBuf>,
-    /// Find round rims without marks (docs/rims.md)
-    #[arg(long)]
-    pub auto: bool,
-    /// Least confidence of a rim that is told, 0 to 1
-    #[arg(long, value_name = "SHARE", default_value_t = 0.5, requires = "auto")]
-    pub min_confidence: f64,
-    /// Height of the rim above the table in mm, where it is known and not to be measured
-    #[arg(long, value_name = "MM")]
-    pub rim_height: Option<f64>,
-    /// How the wall stands, where it is known: vertical or sloped (a box's is vertical)
-    #[arg(long)]
-    pub wall: Option<Wall>,
-    /// Also write the picture with rims, axes and sizes drawn on it, as PNG
-    #[arg(long, value_name = "OUT.png")]
-    pub overlay: Option<PathBuf>,
-    /// JSON on stdout
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// `simulate`.
-#[derive(Debug, clap::Args)]
-pub struct SimulateArgs {
-    /// What to make: published-bench, large, bench, worn, or a scene file NAME.toml (docs/simulate.md)
-    #[arg(value_name = "PRESET|SCENE.toml", value_parser = parse_made)]
-    pub made: Made,
-    /// Folder of the new study; must be empty or not exist
-    #[arg(short, long)]
-    pub out: PathBuf,
-    /// Seed of all randomness; default: 1, or the scene file's
-    #[arg(long)]
-    pub seed: Option<u64>,
-    /// Everything but the pictures (published-bench)
-    #[arg(long)]
-    pub no_pictures: bool,
-    /// How large it is
-    #[command(flatten)]
-    pub large: LargeArgs,
-}
-
-/// Options of the presets `large`, `worn` and `bench`: each takes some of them.
-#[derive(Debug, Default, PartialEq, clap::Args)]
-#[command(next_help_heading = "Presets large, worn and bench")]
-pub struct LargeArgs {
-    /// Sessions; default: 300 (large), 4 (worn)
-    #[arg(long, value_name = "N")]
-    pub sessions: Option<u32>,
-    /// Images of each session; default: 24 (large, worn)
-    #[arg(long, value_name = "N")]
-    pub images: Option<u32>,
-    /// Size of the pictures; default: 320x240 (large), 1296x972 (worn, bench)
-    #[arg(long, value_name = "WxH", value_parser = parse_size_px)]
-    pub image_size: Option<[u32; 2]>,
-    /// Per cent of the sessions that are damaged, each in another way; default: 0 (large)
-    #[arg(long, value_name = "PCT")]
-    pub damage: Option<f64>,
-}
-
-/// `320x240`.
-fn parse_size_px(text: &str) -> Result<[u32; 2], String> {
-    let side = |text: &str| text.parse::<u32>().ok();
-    let size = text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
-    size.ok_or_else(|| "expected width and height in pixels, such as 320x240".to_owned())
-}
-
-/// What `simulate` makes.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Made {
-    /// A study of the program's own.
-    Preset(Preset),
-    /// What a scene file says.
-    Scene(PathBuf),
-}
-
-/// `worn`, `kitchen.toml`.
-fn parse_made(text: &str) -> Result<Made, String> {
-    if Path::new(text).extension().is_some_and(|extension| extension == "toml") {
-        return Ok(Made::Scene(PathBuf::from(text)));
-    }
-    Preset::from_str(text, false).map(Made::Preset).map_err(|_| {
-        let names = Preset::value_variants()
-            .iter()
-            .filter_map(|preset| Some(preset.to_possible_value()?.get_name().to_owned()));
-        format!("expected one of {}, or a scene file that ends in .toml", names.collect::<Vec<_>>().join(", "))
-    })
-}
-
-/// Studies that can be made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Preset {
-    /// The paper's bench and worn sessions, rebuilt from the published readings
-    PublishedBench,
-    /// Many sessions with small pictures, for load tests; some of them damaged, if asked for
-    Large,
-    /// Rendered: nine setups, eight empty plates, bowls and boxes each, on tables with other things
-    Bench,
-    /// Rendered: people eating, with hands, cutlery and food, and heads that move
-    Worn,
+    /// Work folder of the run, whose recordings hold the pictures; default: the name of the results with .work
+    #[arg(long, value_name = "DIR", env = "AIM_BATCH_WORK")]
+    pub work: Option<PathBuf>,
 }
 
 #[cfg(test)]

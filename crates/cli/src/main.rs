@@ -29,7 +29,7 @@ fn main() -> ExitCode {
         Command::Inspect(inspect) => commands::inspect::run(inspect, &bars),
         Command::Marks(marks) => commands::marks::run(&marks.way),
         Command::Ingest(ingest) => commands::ingest::run(ingest, &bars),
-        Command::Report(report) => commands::report::run(report),
+        Command::Report(report) => commands::report::run(report, &bars),
         Command::Project(project) => commands::project::run(project),
         Command::Measure(measure) => commands::measure::run(measure),
         Command::Simulate(simulate) => commands::simulate::run(simulate, &bars),

@@ -39,6 +39,7 @@
 //! ```
 #![warn(missing_docs)]
 
+mod annotate;
 pub mod camera;
 pub mod card;
 pub mod config;
@@ -57,13 +58,16 @@ mod summary;
 mod thumbnail;
 pub mod timeline;
 
+pub use annotate::{
+    AnnotateError, Annotating, ImageNotes, LogLevel, LogNote, MarkNote, annotate_session, annotated_key,
+};
 pub use card::UNREADABLE;
 pub use config::ConfigError;
 pub use fingerprint::{FileStamp, Fingerprint};
 pub use ingest::{IngestError, Ingested, SessionSource, ingest_if_changed, ingest_session, survey_session};
 pub use key::{CardLook, INGEST_VERSION, ingest_is_current, inputs_key};
-pub use mcap_file::is_partial;
-pub use picture::{Picture, PictureError};
+pub use mcap_file::{WriteError, is_partial};
+pub use picture::{JpegError, Picture, PictureError};
 pub use profile::Profile;
 pub use progress::{ByteBudget, IngestProgress, NoProgress};
 pub use read::{ReadError, SessionMetadata, SessionReader};

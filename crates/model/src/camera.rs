@@ -68,6 +68,19 @@ impl Camera {
         Ok(Self { size_px, focal_px, principal_px, skew_px, lens })
     }
 
+    /// The same camera for its pictures resampled to another size, each axis by itself.
+    ///
+    /// # Errors
+    /// [`CameraError::EmptyPicture`] where a side is zero.
+    pub fn resampled(&self, size_px: [u32; 2]) -> Result<Self, CameraError> {
+        let [sx, sy] = [0, 1].map(|axis| f64::from(size_px[axis]) / f64::from(self.size_px[axis]));
+        let [(fx, fy), (cx, cy)] = [self.focal_px, self.principal_px].map(|[x, y]| (x, y));
+        // (0, 0) is the centre of the first pixel: the corner of the picture stays, and lies half a pixel before it.
+        let principal_px = [(cx + 0.5) * sx - 0.5, (cy + 0.5) * sy - 0.5];
+        // The lens works in focal lengths, and does not know of pixels.
+        Self::new(size_px, [fx * sx, fy * sy], principal_px, self.skew_px * sx, self.lens)
+    }
+
     /// Width and height of its pictures.
     #[must_use]
     pub fn size_px(&self) -> [u32; 2] {

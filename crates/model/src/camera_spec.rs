@@ -112,6 +112,31 @@ pub enum CameraSpecError {
 }
 
 impl CameraSpec {
+    /// What describes this camera, with lengths in pixels.
+    #[must_use]
+    pub fn of(name: &str, camera: &Camera) -> Self {
+        let lens = match *camera.lens() {
+            LensModel::None => LensSpec::None {},
+            LensModel::Radial(Radial { k1 }) => LensSpec::Radial { k_per_mm2: None, k1: Some(k1) },
+            LensModel::Division(Division { lambda }) => LensSpec::Division { lambda },
+            LensModel::PlumbBob(PlumbBob { k1, k2, p1, p2, k3 }) => LensSpec::PlumbBob { k1, k2, p1, p2, k3 },
+            LensModel::Fisheye(Fisheye { k1, k2, k3, k4 }) => LensSpec::Fisheye { k1, k2, k3, k4 },
+        };
+        let [width_px, height_px] = camera.size_px();
+        Self {
+            schema_version: CAMERA_SCHEMA_VERSION,
+            name: name.to_owned(),
+            width_px,
+            height_px,
+            focal_px: Some(camera.focal_px()),
+            focal_mm: None,
+            scale_px_per_mm: None,
+            principal_px: camera.principal_px(),
+            skew_px: Some(camera.skew_px()),
+            lens,
+        }
+    }
+
     /// The camera that the file describes.
     ///
     /// # Errors

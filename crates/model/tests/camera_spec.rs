@@ -40,7 +40,10 @@ fn every_lens_model_is_read() {
         ("model = 'fisheye'\nk1 = 0.1", LensModel::Fisheye(Fisheye { k1: 0.1, ..Fisheye::default() })),
     ];
     for (text, expected) in cases {
-        assert_eq!(*camera(PIXELS, text).unwrap().lens(), expected, "{text}");
+        let camera = camera(PIXELS, text).unwrap();
+        assert_eq!(*camera.lens(), expected, "{text}");
+        let written = toml::to_string(&CameraSpec::of("unit 7", &camera)).unwrap();
+        assert_eq!(parse(&written).camera().unwrap(), camera, "{written}");
     }
 }
 

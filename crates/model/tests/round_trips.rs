@@ -63,6 +63,17 @@ fn spot_mm(height_over_plane_mm: f64, (around_rad, distance): (f64, f64)) -> Poi
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
+    /// The corner of a picture is the corner of its resampled copy, and so is every place between.
+    #[test]
+    fn a_resampled_picture_shows_the_same(camera in camera(), pixel in pixel(), size_px in [1..4000_u32, 1..3000_u32]) {
+        let small = camera.resampled(size_px).unwrap();
+        let [sx, sy] = [0, 1].map(|axis| f64::from(size_px[axis]) / f64::from(camera.size_px()[axis]));
+        let there = Point2::new((pixel.x + 0.5) * sx - 0.5, (pixel.y + 0.5) * sy - 0.5);
+        if let (Ok(ray), Ok(again)) = (camera.ray_through(pixel), small.ray_through(there)) {
+            prop_assert!((ray.normalize() - again.normalize()).norm() < 1e-9);
+        }
+    }
+
     /// A pixel that has a place on a plane is where that place is seen; a pixel that has none says so.
     #[test]
     fn pixel_to_plane_to_pixel(view in view(), pixel in pixel(), share in -0.5..0.95) {

@@ -11,11 +11,13 @@
 //! and a remedy; the others complete.
 #![warn(missing_docs)]
 
+mod annotate;
 pub mod calibrate;
 mod check;
 pub mod exchange;
 #[cfg(debug_assertions)]
 mod fault;
+mod gallery;
 mod inputs;
 pub mod inspect;
 pub mod labelme;
@@ -32,7 +34,9 @@ mod survey;
 mod work;
 mod write_marks;
 
+pub use annotate::{Annotated, NotAnnotated, annotate};
 pub use check::{Checked, check};
+pub use gallery::{Gallery, GalleryError, GalleryHalted, GalleryOptions, NotShown, gallery};
 pub use inspect::{inspect_file, inspect_study};
 pub use reporter::{Reporter, Silent, Totals};
 pub use run::{Current, Halted, Ran, RunError, RunOptions, SessionState, StudyState, run, status};

@@ -131,7 +131,7 @@ fn clipped(a: Point2<f64>, b: Point2<f64>, size: [f64; 2]) -> Option<[Point2<f64
 
 /// The pixel at a place in or near a picture.
 #[expect(clippy::cast_possible_truncation, reason = "clamped")]
-fn pixel(place: Point2<f64>) -> Point {
+pub(crate) fn pixel(place: Point2<f64>) -> Point {
     let whole = |v: f64| v.clamp(-100.0, 1e5).round() as i32;
     Point::new(whole(place.x), whole(place.y))
 }
@@ -141,7 +141,7 @@ fn infallible(drawn: Result<impl Sized, core::convert::Infallible>) {
 }
 
 /// A picture as something to draw on.
-struct Canvas<'a>(&'a mut Picture);
+pub(crate) struct Canvas<'a>(pub &'a mut Picture);
 
 impl OriginDimensions for Canvas<'_> {
     fn size(&self) -> Size {

@@ -57,16 +57,20 @@ pub enum WriteError {
 /// # Errors
 /// [`WriteError`]. Ids are checked before anything is written.
 pub fn write_dir(results: &Results, dir: &Path) -> Result<(), WriteError> {
-    let tables = every_table(results);
-    check_names(results, &tables)?;
+    write_tables(results, &every_table(results), dir)
+}
+
+/// Writes `tables`, those of [`every_table`].
+pub(crate) fn write_tables(results: &Results, tables: &[Table], dir: &Path) -> Result<(), WriteError> {
+    check_names(results, tables)?;
     std::fs::create_dir_all(dir).map_err(|source| WriteError::Folder { path: dir.to_owned(), source })?;
-    for table in &tables {
+    for table in tables {
         let file = |extension: &str| dir.join(format!("{}.{extension}", table.stem));
         atomic::write(&file("csv"), csv(table).as_bytes())?;
         atomic::write(&file("md"), markdown(table).as_bytes())?;
         atomic::write(&file("tex"), latex(table).as_bytes())?;
     }
-    Ok(atomic::write(&dir.join("tables.md"), all_markdown(&tables, results).as_bytes())?)
+    Ok(atomic::write(&dir.join("tables.md"), all_markdown(tables, results).as_bytes())?)
 }
 
 /// The tables of the study, the sizes, error by pitch and by height, validation, and what became of the images.

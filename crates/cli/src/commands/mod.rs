@@ -2,10 +2,12 @@
 
 pub mod calibrate;
 pub mod check;
+mod gallery;
 pub mod ingest;
 pub mod inspect;
 pub mod marks;
 pub mod measure;
+mod page;
 mod place;
 mod problems;
 pub mod project;

@@ -1,24 +1,25 @@
-//! `report`: tables again, from the files that `run` wrote.
+//! `report`: tables and page again, from the files that `run` wrote.
 
 use std::io;
 
 use ::report::{ReadError, Results, frames_file};
 
-use super::{outcome, print, tables_text, tell};
+use super::{outcome, page, print, stop_on_signals, tables_text, tell};
 use crate::args::ReportArgs;
 use crate::exit::{Failure, Outcome};
+use crate::progress::Bars;
 
-/// Prints the tables, and writes them and the figures when a folder is given.
-pub fn run(args: &ReportArgs) -> Result<Outcome, Failure> {
+/// Prints the tables, and writes the report when a folder is given.
+pub fn run(args: &ReportArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let mut results = Results::read(&args.results)?;
-    let lost = read_flow(&mut results, args)?;
+    let mut lost = read_flow(&mut results, args)?;
     print(&tables_text(&results))?;
     if let Some(dir) = &args.out {
-        ::report::write_dir(&results, dir)?;
-        // Without a ledger that belongs to the results there are no figures of images.
-        let frames =
-            if results.flow.is_some() { ::report::read_frames(&frames_file(&args.results))? } else { Vec::new() };
-        ::report::write_figures(&::report::figures(&results, &frames), dir)?;
+        let work_dir = args.work.clone().unwrap_or_else(|| args.results.with_extension("work"));
+        let source = page::Source { out: &args.results, work_dir: &work_dir, stop: stop_on_signals()? };
+        let written = page::write(&results, source, dir, bars)?;
+        lost |= written.lost;
+        tell(&format!("wrote {}\n", written.page.display()));
     }
     Ok(outcome(lost))
 }

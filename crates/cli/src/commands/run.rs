@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
-use pipeline::{Halted, Holder, MarksWritten, RunError, RunOptions, WriteMarksError};
-use report::{FileError, SinkError};
+use pipeline::{Annotated, Halted, Holder, MarksWritten, NotAnnotated, RunError, RunOptions, WriteMarksError};
+use report::{FileError, Results, SinkError};
 
 use super::summary::{Finished, tell_summary};
-use super::{COMMIT, PROGRAM, outcome, place, print, settings, stop_on_signals, tables_text, tell};
+use super::{COMMIT, PROGRAM, outcome, page, place, print, settings, stop_on_signals, tables_text, tell};
 use crate::args::RunArgs;
 use crate::exit::{Failure, Outcome};
 use crate::logging::LogFormat;
@@ -32,23 +32,29 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     let mut sink = sink.map_err(|error| named(error, &options.work_dir))?;
     let progress = bars.for_run();
     let ran = pipeline::run(&study, &options, &progress, &mut sink).map_err(failure)?;
-    drop((sink, progress));
+    drop(sink);
+    let annotated = args.annotate.then(|| pipeline::annotate(&study, &options, &progress)).transpose();
+    drop(progress);
     let marks = args.write_marks.as_deref();
     let marks = marks.map(|folder| Ok((folder, pipeline::write_marks(&study, &options.work_dir, PROGRAM, folder)?)));
     let marks = marks.transpose().map_err(|error: WriteMarksError| Failure::Failed(error.into()))?;
 
-    let mut results = ::report::Results::read(out)?;
+    let annotated = annotated.map_err(|halted| failure(halted.into()))?;
+
+    let mut results = Results::read(out)?;
     results.read_flow(&frames)?;
     print(&tables_text(&results))?;
-    if let Some(dir) = &args.report {
-        ::report::write_dir(&results, dir)?;
-        ::report::write_figures(&::report::figures(&results, &::report::read_frames(&frames)?), dir)?;
-    }
+    let source = || page::Source { out, work_dir: &options.work_dir, stop: options.stop.clone() };
+    let report = args.report.as_ref().map(|dir| page::write(&results, source(), dir, bars)).transpose()?;
+    let (page, shown) = report.map_or((None, true), |report| (Some(report.page), !report.lost));
     let files = [out.clone(), frames, ::report::run_file(out)];
-    let files: Vec<PathBuf> = files.into_iter().chain(args.report.clone()).collect();
+    let files: Vec<PathBuf> = files.into_iter().chain(page).collect();
     tell_summary(&Finished { ran: &ran, files: &files, work_dir: &options.work_dir }, format);
     if let Some((folder, written)) = marks {
         tell_marks(written, folder, format);
+    }
+    if let Some(annotated) = &annotated {
+        tell_annotated(annotated, format);
     }
     if let Some(dir) = &args.expect {
         let comparison = ::report::compare(dir, &results, args.tolerance).map_err(Failure::usage)?;
@@ -60,7 +66,8 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     if ran.sessions.iter().all(|session| session.failed) {
         return Err(Failure::Failed(anyhow!("no session could be used")));
     }
-    Ok(outcome(ran.sessions.iter().any(SessionStatus::has_losses)))
+    let lost = annotated.is_some_and(|annotated| !annotated.failed.is_empty());
+    Ok(outcome(lost || !shown || ran.sessions.iter().any(SessionStatus::has_losses)))
 }
 
 fn options(args: &RunArgs) -> Result<RunOptions, Failure> {
@@ -90,6 +97,19 @@ fn tell_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
         tell(&format!(
             "{left} more differ from what would be written, and were left as they are\n  -> remove those that are to be written anew\n"
         ));
+    }
+}
+
+/// How many recordings are there for viewers, and which are not.
+fn tell_annotated(annotated: &Annotated, format: LogFormat) {
+    let Annotated { folder, made, kept, failed } = annotated;
+    if format == LogFormat::Json {
+        tracing::info!(made, kept, failed = failed.len(), "annotated recordings, in {}", folder.display());
+        return; // why some failed has been an event already
+    }
+    tell(&format!("annotated recordings: {made} written, {kept} unchanged in {}\n", folder.display()));
+    for NotAnnotated { session, fact } in failed {
+        tell(&format!("session '{session}' has none: {fact}\n"));
     }
 }
 

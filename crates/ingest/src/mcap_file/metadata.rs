@@ -20,6 +20,8 @@ pub(crate) const TIMELINE: &str = "aim_batch.timeline";
 pub(crate) const PROBLEMS: &str = "aim_batch.problems";
 /// SHA-256 of all the others: chunks carry checksums, metadata records do not.
 pub(crate) const SEAL: &str = "aim_batch.seal";
+/// In an annotated recording: what its notes are made from.
+pub(crate) const ANNOTATED: &str = "aim_batch.annotated";
 
 /// Metadata records by name.
 pub(crate) type Records = BTreeMap<String, BTreeMap<String, String>>;
@@ -102,6 +104,15 @@ impl Facts {
             inputs_sha256: records.remove(INPUTS).ok_or_else(|| wrong(INPUTS, "missing"))?,
         })
     }
+}
+
+/// The records of a recording, for one with notes that were made from `key`.
+pub(crate) fn annotated(mut records: Records, key: &str) -> Records {
+    records.remove(SEAL);
+    records.insert(ANNOTATED.to_owned(), BTreeMap::from([("key".to_owned(), key.to_owned())]));
+    let sealed = seal(&records);
+    records.insert(SEAL.to_owned(), BTreeMap::from([("sha256".to_owned(), sealed)]));
+    records
 }
 
 fn seal(records: &Records) -> String {

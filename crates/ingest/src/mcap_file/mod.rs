@@ -5,8 +5,9 @@ pub(crate) mod messages;
 pub(crate) mod metadata;
 mod writer;
 
+pub use writer::WriteError;
 pub use writer::is_partial;
-pub(crate) use writer::{Keep, SessionWriter, WriteError};
+pub(crate) use writer::{Keep, SessionWriter, timestamp};
 
 /// Topics.
 pub(crate) mod topic {

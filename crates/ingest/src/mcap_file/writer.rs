@@ -217,6 +217,31 @@ impl SessionWriter {
         Ok(())
     }
 
+    /// Writes a message that says something of a recording.
+    pub fn note<M: prost::Message + foxglove::Encode>(
+        &mut self,
+        topic: &str,
+        time: UtcNs,
+        message: &M,
+    ) -> Result<(), WriteError> {
+        self.write(topic, time, message).map(|_| ())
+    }
+
+    /// Writes a message of type `M` as another file has it, under the number that it has there.
+    pub fn copy<M: foxglove::Encode>(
+        &mut self,
+        topic: &str,
+        sequence: u32,
+        time: UtcNs,
+        data: &[u8],
+    ) -> Result<(), WriteError> {
+        let channel_id = self.channel::<M>(topic)?;
+        let log_time = time.0.max(0).unsigned_abs();
+        let header = MessageHeader { channel_id, sequence, log_time, publish_time: log_time };
+        self.first_time = Some(self.first_time.map_or(time, |first| first.min(time)));
+        Ok(self.mcap.write_to_known_channel(&header, data)?)
+    }
+
     fn write<M: prost::Message + foxglove::Encode>(
         &mut self,
         topic: &str,
@@ -259,7 +284,7 @@ fn wire_times(times: &Times) -> (f64, Vec<u64>) {
 }
 
 /// None after the year 2106, where the message's 32-bit seconds end; the MCAP's own time goes on to 2262.
-pub(super) fn timestamp(time: UtcNs) -> Option<Timestamp> {
+pub(crate) fn timestamp(time: UtcNs) -> Option<Timestamp> {
     let seconds = u32::try_from(time.0.div_euclid(1_000_000_000)).ok()?;
     let ns = u32::try_from(time.0.rem_euclid(1_000_000_000)).ok()?;
     Timestamp::new_checked(seconds, ns)

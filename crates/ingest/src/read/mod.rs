@@ -2,11 +2,13 @@
 
 mod chunk;
 mod error;
+mod raw;
 mod records;
 mod samples;
 mod summary;
 
 pub use error::ReadError;
+pub(crate) use raw::RawMessage;
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -124,17 +126,11 @@ impl SessionReader {
     /// # Errors
     /// [`ReadError`] when there is no such image, or the file is damaged.
     pub fn image_bytes(&mut self, file: &str) -> Result<Vec<u8>, ReadError> {
-        let listed = self.image_list()?.iter().find(|(entry, _)| entry.file == file);
-        let found = listed.map(|(entry, sequence)| (entry.time, *sequence));
-        let damage = match found {
-            Some((time, sequence)) => match self.image_at(time, sequence) {
-                Ok(Some(bytes)) => return Ok(bytes),
-                Ok(None) => Damage::NoImage(file.to_owned()),
-                Err(damage) => damage,
-            },
-            None => Damage::NoImage(file.to_owned()),
-        };
-        Err(ReadError::new(&self.path, damage))
+        let listed = self.image_list()?.iter().find(|(entry, _)| entry.file == file).map(|(entry, _)| entry.clone());
+        match listed {
+            Some(entry) => self.raw_image(&entry)?.image(&self.path),
+            None => Err(ReadError::new(&self.path, Damage::NoImage(file.to_owned()))),
+        }
     }
 
     /// Calls `each` with all samples: first the accelerometer's, then the range sensor's, each in order of time.
@@ -203,23 +199,5 @@ impl SessionReader {
         }
         images.sort_by(|(a, _), (b, _)| (a.time, &a.file).cmp(&(b.time, &b.file)));
         Ok(images)
-    }
-
-    fn image_at(&self, time: UtcNs, sequence: u32) -> Result<Option<Vec<u8>>, Damage> {
-        let mut found = None;
-        for chunk in self.index.chunks_of(&[topic::IMAGE]).filter(|chunk| chunk.covers(time)) {
-            chunk::for_each_message(&self.file, chunk, |header, data| {
-                let is_image = self.index.topic(header.channel_id) == Some(topic::IMAGE);
-                if is_image && header.sequence == sequence && chunk::time_of(header)? == time {
-                    let image: foxglove::messages::CompressedImage = prost::Message::decode(data)?;
-                    found = Some(Vec::from(image.data));
-                }
-                Ok(())
-            })?;
-            if found.is_some() {
-                break;
-            }
-        }
-        Ok(found)
     }
 }

@@ -28,7 +28,7 @@ pub(super) struct Index {
 
 /// A chunk record: where it is, and what it holds.
 #[derive(Debug, Clone)]
-pub(super) struct ChunkAt {
+pub(crate) struct ChunkAt {
     pub offset: u64,
     pub bytes: u64,
     pub start: UtcNs,

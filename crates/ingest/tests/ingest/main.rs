@@ -1,6 +1,7 @@
 //! Tests of the crate from outside, as one binary.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod annotated;
 mod arbitrary_bytes;
 mod broken_cards;
 mod configuration;

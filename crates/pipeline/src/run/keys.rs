@@ -19,7 +19,7 @@ use crate::study::{
 /// Version of what the signals stage gives. A change of meaning gives another number, and recordings are read anew.
 const SIGNALS_VERSION: u32 = 1;
 /// Version of what measuring gives, likewise.
-const MEASURE_VERSION: u32 = 3;
+const MEASURE_VERSION: u32 = 4;
 
 #[derive(Serialize)]
 struct SignalsParts<'a> {

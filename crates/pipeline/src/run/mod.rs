@@ -21,6 +21,7 @@ use crate::work::WorkFolder;
 use carry_out::All;
 pub use error::{Halted, RunError};
 pub use options::RunOptions;
+pub(crate) use options::program_and_commit;
 use plan::Common;
 pub use plan::Current;
 pub use status::{SessionState, StudyState, status};

@@ -36,6 +36,6 @@ impl RunOptions {
 }
 
 /// What readings and sizes were made by.
-pub(super) fn program_and_commit(program: &str, commit: Option<&str>) -> String {
+pub(crate) fn program_and_commit(program: &str, commit: Option<&str>) -> String {
     format!("{program} {}", commit.unwrap_or("unknown commit"))
 }

@@ -13,6 +13,7 @@ mod prepared;
 mod problems;
 mod recording;
 mod row;
+mod shown;
 mod surest;
 #[cfg(test)]
 mod tests;
@@ -39,6 +40,7 @@ pub(crate) use prepared::Prepared;
 use problems::no_pose;
 pub(crate) use problems::without_host;
 pub(crate) use recording::{BAD_MCAP, Recording, read as read_recording};
+pub(crate) use shown::{Shown, ShownImage, ShownMark, ShownObject};
 
 /// What one session gives.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -54,6 +56,9 @@ pub(crate) struct SessionOutput {
     /// Rims that the program found itself, by image (file on the card).
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub auto: BTreeMap<String, Vec<AutoRim>>,
+    /// What was measured where, for those who show pictures.
+    #[serde(default)]
+    pub shown: Shown,
     /// Known sizes, where a calibration asks for them.
     #[serde(skip)]
     pub bench: BenchSession,
@@ -209,6 +214,7 @@ pub(crate) fn measure(
     if study.is_bench {
         output.bench = bench::of(&session, &marked);
     }
+    output.shown = Shown::of(&prepared.camera, &marked);
     let mut measurements = measurement::measure_all(&marked, &mut output.status.problems);
     let fused = fuse::fuse(study, &marked, &mut measurements);
     let asked = |row: &ResultRow| study.spec.measure.methods.contains(&row.method);

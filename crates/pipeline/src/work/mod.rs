@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `state.sqlite` | which stage of which session was made from what, and what came out ([`state`]) |
 //! | `mcap/SESSION.mcap` | the recording of a session |
+//! | `annotated/SESSION.annotated.mcap` | likewise, with what was found in it, where that was asked for |
 //! | `lock` | held by the run at work ([`lock`]) |
 
 mod database;
@@ -46,20 +47,46 @@ impl WorkFolder {
 }
 
 impl WorkFolder {
+    /// The folder of annotated recordings, made if need be; what a killed run left half-written is removed.
+    pub fn annotated_dir(&self) -> Result<PathBuf, WorkError> {
+        let dir = self.mcap_dir.with_file_name(ANNOTATED);
+        std::fs::create_dir_all(&dir).map_err(|source| WorkError::Folder { path: dir.clone(), source })?;
+        remove_partial(&dir);
+        Ok(dir)
+    }
+
     /// Deletes what is there of other sessions than these.
     pub fn prune(&self, sessions: &[&str]) -> Result<(), WorkError> {
         for session in self.state.all()?.into_keys().filter(|session| !sessions.contains(&session.as_str())) {
-            let mcap = self.mcap(&session);
-            match std::fs::remove_file(&mcap) {
-                Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
-                    return Err(WorkError::File { path: mcap, source });
-                }
-                _ => self.state.forget(&session)?,
-            }
+            let annotated = self.mcap_dir.with_file_name(ANNOTATED).join(annotated_name(&session));
+            remove_file(&annotated)?;
+            remove_file(&self.mcap(&session))?;
+            self.state.forget(&session)?;
             tracing::info!(session, "no longer in the study: deleted from the work folder");
         }
         Ok(())
     }
+}
+
+fn remove_file(path: &Path) -> Result<(), WorkError> {
+    match std::fs::remove_file(path) {
+        Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+            Err(WorkError::File { path: path.to_owned(), source })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The folder of annotated recordings, in the work folder.
+const ANNOTATED: &str = "annotated";
+
+fn annotated_name(session: &str) -> String {
+    format!("{session}.annotated.mcap")
+}
+
+/// Where a work folder has the annotated recording of a session.
+pub(crate) fn annotated_of(dir: &Path, session: &str) -> PathBuf {
+    dir.join(ANNOTATED).join(annotated_name(session))
 }
 
 /// Where the state of a work folder is.

@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 mod columns;
 mod read;
 mod row_file;
+mod run_log;
 mod sink;
 mod truth;
 
 pub use read::{ReadError, Results, read_frames};
+pub use run_log::read_run_log;
 pub use sink::{ParquetSink, SinkError};
 pub use truth::{read_truth, write_truth};
 

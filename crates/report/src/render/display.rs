@@ -3,7 +3,7 @@
 use crate::table::{Cell, Column, Format, Table, TableRow};
 
 /// A number with at most six decimals and no more than it needs.
-pub(super) fn shortest(number: f64) -> String {
+pub(crate) fn shortest(number: f64) -> String {
     let text = format!("{number:.6}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     unsigned_zero(text.to_owned())
@@ -26,17 +26,17 @@ fn formatted(number: f64, format: Format) -> String {
 }
 
 /// Control characters in names would move the cursor of a terminal, or end a line of a table.
-pub(super) fn printable(text: &str) -> String {
+pub(crate) fn printable(text: &str) -> String {
     text.chars().map(|character| if character.is_control() { '\u{fffd}' } else { character }).collect()
 }
 
 /// The columns for people.
-pub(super) fn shown(table: &Table) -> Vec<(usize, &Column)> {
+pub(crate) fn shown(table: &Table) -> Vec<(usize, &Column)> {
     table.columns.iter().enumerate().filter(|(_, column)| column.heading.is_some()).collect()
 }
 
 /// Heading and unit of a column: `error (%)`.
-pub(super) fn heading(column: &Column) -> String {
+pub(crate) fn heading(column: &Column) -> String {
     let heading = printable(column.heading.as_deref().unwrap_or(&column.name));
     match column.unit {
         Some(unit) if !unit.is_empty() => format!("{heading} ({unit})"),
@@ -45,7 +45,7 @@ pub(super) fn heading(column: &Column) -> String {
 }
 
 /// The cell of a shown column, with its SD behind ± where it has one. `place` counts shown columns.
-pub(super) fn cell(table: &Table, row: &TableRow, place: usize, (index, column): (usize, &Column)) -> String {
+pub(crate) fn cell(table: &Table, row: &TableRow, place: usize, (index, column): (usize, &Column)) -> String {
     if let Some(label) = row.label.as_ref().filter(|_| place == 0) {
         return label.clone();
     }
@@ -64,7 +64,7 @@ pub(super) fn cell(table: &Table, row: &TableRow, place: usize, (index, column):
 }
 
 /// `Table II. Error in dimensions for plates`.
-pub(super) fn caption(table: &Table) -> String {
+pub(crate) fn caption(table: &Table) -> String {
     let title = printable(&table.title);
     match &table.label {
         Some(label) => format!("{}. {title}", printable(label)),

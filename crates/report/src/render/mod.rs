@@ -1,7 +1,7 @@
 //! A table as text.
 
 mod csv;
-mod display;
+pub(crate) mod display;
 mod latex;
 mod markdown;
 mod terminal;

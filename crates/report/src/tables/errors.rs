@@ -20,7 +20,7 @@ pub(super) fn error_pct(predicted: Option<f64>, truth: Option<f64>) -> Option<f6
 }
 
 /// The error of one row of the results.
-pub(super) fn row_error_pct(row: &ResultRow) -> Option<f64> {
+pub(crate) fn row_error_pct(row: &ResultRow) -> Option<f64> {
     error_pct(row.predicted_mm, row.truth_mm)
 }
 

@@ -26,6 +26,8 @@ pub use left_out::left_out;
 pub use methods::methods;
 pub use sizes::sizes;
 
+pub(crate) use errors::row_error_pct;
+
 use crate::parquet::Results;
 use crate::table::{Column, Table};
 use footnotes::NotedRow;

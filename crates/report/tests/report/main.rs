@@ -13,6 +13,7 @@ mod files;
 mod flow;
 mod golden;
 mod misuse;
+mod page;
 mod parquet;
 mod sizes;
 mod statistics;

@@ -1,0 +1,73 @@
+//! `project` and `measure`: one picture, by hand, without a study.
+
+use std::path::PathBuf;
+
+use model::{Kind, Shape, Wall};
+
+/// Where the camera is, for `project` and `measure`.
+#[derive(Debug, clap::Args)]
+pub struct PoseArgs {
+    /// Camera file (docs/devices.md), or a built-in camera (aim2-raw, aim2-corrected)
+    #[arg(long, value_name = "CAM.toml")]
+    pub camera: PathBuf,
+    /// Depression of the optical axis below the horizontal, in degrees
+    #[arg(long, value_name = "DEG")]
+    pub pitch: f64,
+    /// Roll, positive clockwise as the wearer sees it, in degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    pub roll: f64,
+    /// Distance to the table along the optical axis, in mm
+    #[arg(long, value_name = "MM")]
+    pub range: f64,
+}
+
+/// `project`.
+#[derive(Debug, clap::Args)]
+pub struct ProjectArgs {
+    /// Where the camera is
+    #[command(flatten)]
+    pub pose: PoseArgs,
+    /// Height of the plane above the table, in mm
+    #[arg(long, value_name = "MM", default_value_t = 0.0)]
+    pub plane_z: f64,
+    /// From the plane to pixels: reads world_x_mm,world_y_mm
+    #[arg(long)]
+    pub inverse: bool,
+}
+
+/// `measure`.
+#[derive(Debug, clap::Args)]
+pub struct MeasureArgs {
+    /// The picture
+    pub image: PathBuf,
+    /// Where the camera is
+    #[command(flatten)]
+    pub pose: PoseArgs,
+    /// What it is: plate (on the table), bowl or box (with a height); with --auto, default: as it looks
+    #[arg(long, required_unless_present = "auto")]
+    pub kind: Option<Kind>,
+    /// Its outline; default: circle for plates and bowls, rectangle for boxes
+    #[arg(long)]
+    pub shape: Option<Shape>,
+    /// Marks, as a LabelMe file (docs/study.md)
+    #[arg(long, value_name = "FILE.json", required_unless_present = "auto", conflicts_with = "auto")]
+    pub marks: Option<PathBuf>,
+    /// Find round rims without marks (docs/rims.md)
+    #[arg(long)]
+    pub auto: bool,
+    /// Least confidence of a rim that is told, 0 to 1
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5, requires = "auto")]
+    pub min_confidence: f64,
+    /// Height of the rim above the table in mm, where it is known and not to be measured
+    #[arg(long, value_name = "MM")]
+    pub rim_height: Option<f64>,
+    /// How the wall stands, where it is known: vertical or sloped (a box's is vertical)
+    #[arg(long)]
+    pub wall: Option<Wall>,
+    /// Also write the picture with rims, axes and sizes drawn on it, as PNG
+    #[arg(long, value_name = "OUT.png")]
+    pub overlay: Option<PathBuf>,
+    /// JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}

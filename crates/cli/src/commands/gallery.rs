@@ -1,0 +1,48 @@
+//! Pictures for the page of a report, from the work folder of the run that gave the results.
+
+use std::path::Path;
+
+use model::{GallerySink, SessionStatus};
+use pipeline::{GalleryError, GalleryHalted, GalleryOptions, NotShown, Reporter, Stop};
+
+use super::tell;
+use crate::exit::Failure;
+
+/// Decoded pictures in memory at once.
+const MEMORY_BYTES: u64 = 256 << 20;
+/// More of them are counted, not listed.
+const LISTED: usize = 5;
+
+/// Hands all pictures of these sessions to `sink`. Gives whether some could not be shown; where there is no work folder the
+/// report does without, and says so.
+pub fn gallery_into<S: GallerySink>(
+    work_dir: &Path,
+    sessions: &[SessionStatus],
+    stop: Stop,
+    progress: &dyn Reporter,
+    sink: &mut S,
+) -> Result<bool, Failure> {
+    let options = GalleryOptions { work_dir, sessions, jobs: None, image_memory_bytes: MEMORY_BYTES, stop };
+    match pipeline::gallery(&options, progress, sink) {
+        Ok(made) => {
+            tell(&not_shown(&made.not_shown));
+            Ok(!made.not_shown.is_empty())
+        }
+        Err(GalleryError::Halted(error @ GalleryHalted::NoWork(_))) => {
+            tell(&format!("no pictures in the report: {error}\n  -> give --work, or run the study again\n"));
+            Ok(false)
+        }
+        Err(GalleryError::Halted(error @ GalleryHalted::Stopped { signal })) => {
+            Err(Failure::Stopped(signal, error.into()))
+        }
+        Err(error) => Err(Failure::Failed(error.into())),
+    }
+}
+
+fn not_shown(all: &[NotShown]) -> String {
+    let place =
+        |not: &NotShown| not.image.as_ref().map_or(not.session.clone(), |image| format!("{}/{image}", not.session));
+    let listed = all.iter().take(LISTED).map(|not| format!("no picture of {}: {}\n", place(not), not.fact));
+    let more = all.len().saturating_sub(LISTED);
+    listed.chain((more > 0).then(|| format!("and {more} more\n"))).collect()
+}

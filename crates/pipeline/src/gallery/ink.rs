@@ -1,0 +1,78 @@
+//! Lines and letters on a small picture.
+
+use embedded_graphics::Drawable as _;
+use embedded_graphics::mono_font::{MonoTextStyle, MonoTextStyleBuilder, ascii};
+use embedded_graphics::pixelcolor::{Rgb888, RgbColor as _};
+use embedded_graphics::text::Text;
+use ingest::Picture;
+
+use crate::overlay::{Canvas, pixel};
+
+/// Blue and yellow are seen on white plates and on dark tables; the line takes turns.
+const DASHES: [[u8; 3]; 2] = [[0, 90, 180], [250, 230, 60]];
+const DASH_PX: usize = 4;
+/// Share of the line's own colour.
+const WEIGHT: u32 = 60;
+
+/// A dashed line down the picture at `x`, through which it is seen.
+pub(super) fn down(picture: &mut Picture, x: f64) {
+    for y in 0..picture.height_px as usize {
+        blend(picture, whole(x), Some(y), y);
+    }
+}
+
+/// A dashed line across the picture at `y`.
+pub(super) fn across(picture: &mut Picture, y: f64) {
+    for x in 0..picture.width_px as usize {
+        blend(picture, Some(x), whole(y), x);
+    }
+}
+
+/// A line of text (ASCII) that begins at `place`, on its base line. What lies outside is cut off.
+pub(super) fn letters(picture: &mut Picture, [x, y]: [f64; 2], text: &str) {
+    let style: MonoTextStyle<'_, Rgb888> = MonoTextStyleBuilder::new()
+        .font(&ascii::FONT_6X10)
+        .text_color(Rgb888::WHITE)
+        .background_color(Rgb888::BLACK)
+        .build();
+    let Ok(_) = Text::new(text, pixel([x, y].into()), style).draw(&mut Canvas(picture));
+}
+
+fn blend(picture: &mut Picture, x: Option<usize>, y: Option<usize>, along: usize) {
+    let (Some(x), Some(y)) = (x, y) else { return };
+    let (width, height) = (picture.width_px as usize, picture.height_px as usize);
+    if x >= width || y >= height {
+        return;
+    }
+    let colour = DASHES[along / DASH_PX % DASHES.len()];
+    let start = 3 * (y * width + x);
+    for (under, over) in picture.rgb[start..start + 3].iter_mut().zip(colour) {
+        let mixed = (u32::from(*under) * (100 - WEIGHT) + u32::from(over) * WEIGHT) / 100;
+        *under = u8::try_from(mixed).unwrap_or(u8::MAX);
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative, and saturating")]
+fn whole(place: f64) -> Option<usize> {
+    (place >= -0.5).then(|| place.round().max(0.0) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_lies_outside_is_cut_off() {
+        let mut picture = Picture { width_px: 20, height_px: 10, rgb: vec![200; 600] };
+        for place in [-3.0, 400.0, f64::NAN] {
+            down(&mut picture, place);
+            across(&mut picture, place);
+        }
+        assert_eq!(picture.rgb, vec![200; 600]);
+        down(&mut picture, 3.2);
+        let changed: Vec<usize> = (0..200).filter(|at| picture.rgb[3 * at] != 200).map(|at| at % 20).collect();
+        assert_eq!(changed, vec![3; 10]);
+        letters(&mut picture, [15.0, 12.0], "outside");
+        assert_eq!(picture.rgb.len(), 600);
+    }
+}

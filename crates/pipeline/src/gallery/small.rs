@@ -1,0 +1,21 @@
+//! The picture as the camera took it, made small.
+
+use ingest::Picture;
+use model::View;
+
+use super::marks::{Marked, placed, scaled};
+use crate::session::ShownImage;
+
+/// The longer side of a picture as it is shown.
+pub(super) const SIDE_PX: u32 = 640;
+/// Of its JPEG file: about 40 kB.
+pub(super) const QUALITY: u8 = 75;
+
+/// `view`: of this picture. None where nothing is left of a side.
+pub(super) fn of(picture: Picture, view: &View, shown: &ShownImage) -> Option<Marked> {
+    let picture = picture.reduced(SIDE_PX);
+    let size_px = [picture.width_px, picture.height_px];
+    let whole_px = view.camera().size_px();
+    let marks = placed(shown, |point| Some(scaled(point, whole_px, size_px)));
+    (!size_px.contains(&0)).then_some(Marked { picture, marks })
+}

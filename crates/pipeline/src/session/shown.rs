@@ -1,0 +1,176 @@
+//! What was measured in each picture, for those who show pictures: marks as they lie in the recorded ones, and the view that
+//! sizes were measured by. It is kept with the sizes, so that it fits them whatever becomes of marks and settings.
+
+use std::collections::BTreeMap;
+
+use model::{Camera, CameraSpec, Feature, Mark, Method, Pose, Quantity, View};
+use nalgebra::Point2;
+use serde::{Deserialize, Serialize};
+
+use super::measurement::Marked;
+use crate::calibrate::corrected_view;
+
+/// The pictures of a session in which something was measured.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Shown {
+    /// Camera of the recorded pictures, with what a calibration has taught; none where nothing is shown.
+    pub camera: Option<CameraSpec>,
+    /// By image (file on the card).
+    pub images: BTreeMap<String, ShownImage>,
+}
+
+/// A picture in which something was measured.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct ShownImage {
+    pitch_rad: f64,
+    roll_rad: f64,
+    range_mm: f64,
+    /// What was marked in it.
+    pub objects: Vec<ShownObject>,
+}
+
+/// What one rater marked of one object in one picture.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct ShownObject {
+    pub object: String,
+    pub rater: String,
+    pub marks: Vec<ShownMark>,
+}
+
+/// A line or a curve.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct ShownMark {
+    /// What a line's length is; none of a curve.
+    pub quantity: Option<Quantity>,
+    /// The curve that it is, or that a line's ends lie on (of a height: its first).
+    pub feature: Feature,
+    /// Whether its last point joins its first.
+    pub closed: bool,
+    /// Its points, in pixels of the recorded picture.
+    pub points_px: Vec<[f64; 2]>,
+}
+
+/// A curve is shown by so many points at most: the chords between them are nowhere far from it.
+const MOST_POINTS: usize = 72;
+/// Points of a rim that was found are this much further apart than most where something hides it, in medians.
+const HIDDEN: f64 = 4.0;
+
+impl Shown {
+    /// `camera`: of the recorded pictures.
+    pub(super) fn of(camera: &Camera, marked: &[Marked<'_>]) -> Self {
+        let mut shown = Self::default();
+        for marked in marked {
+            let Some(view) = view_of(camera, marked) else { continue };
+            shown.camera.get_or_insert_with(|| CameraSpec::of("recorded", view.camera()));
+            let marks_camera = &marked.session.marks_camera;
+            let marks = marked.marks.marks.iter().filter_map(|mark| {
+                ShownMark::of(mark, marked.found.is_some(), |point| recorded(camera, marks_camera, point))
+            });
+            let object = ShownObject {
+                object: marked.marks.object.clone(),
+                rater: marked.rater.to_owned(),
+                marks: marks.collect(),
+            };
+            let pose = view.pose();
+            let image = shown.images.entry(marked.frame.image.file.clone()).or_insert_with(|| ShownImage {
+                pitch_rad: pose.pitch_rad(),
+                roll_rad: pose.roll_rad(),
+                range_mm: pose.range_mm(),
+                objects: Vec::new(),
+            });
+            image.objects.push(object);
+        }
+        shown
+    }
+
+    /// The view that sizes of a picture were measured by with method `ray`, for the recorded picture.
+    pub fn view(&self, image: &ShownImage) -> Option<View> {
+        let camera = self.camera.as_ref()?.camera().ok()?;
+        Some(View::new(camera, Pose::new(image.pitch_rad, image.roll_rad, image.range_mm).ok()?))
+    }
+}
+
+fn view_of(camera: &Camera, marked: &Marked<'_>) -> Option<View> {
+    let view = View::new(*camera, marked.frame.signals.pose_for(Method::Ray)?);
+    corrected_view(marked.session.study.calibration.as_ref(), Method::Ray, view)
+}
+
+/// Where a point of a marked picture is in the recorded one.
+fn recorded(camera: &Camera, marks_camera: &Camera, point: Point2<f64>) -> Option<Point2<f64>> {
+    if camera == marks_camera { Some(point) } else { camera.pixel_of(&marks_camera.ray_through(point).ok()?).ok() }
+}
+
+impl ShownMark {
+    /// None where the recorded picture does not show it.
+    fn of(mark: &Mark, is_found: bool, recorded: impl Fn(Point2<f64>) -> Option<Point2<f64>>) -> Option<Self> {
+        let points = mark.points_px();
+        let kept = points.iter().step_by(points.len().div_ceil(MOST_POINTS).max(1));
+        let tenths = |point: Point2<f64>| [point.x, point.y].map(|c| (c * 10.0).round() / 10.0);
+        let mut points_px = kept.map(|point| recorded(*point).map(tenths)).collect::<Option<Vec<_>>>()?;
+        let (quantity, feature, closed) = match mark {
+            Mark::Line { quantity: Quantity::Height, .. } => (Some(Quantity::Height), Feature::Base, false),
+            Mark::Line { quantity, .. } => (Some(*quantity), Feature::Rim, false),
+            Mark::Outline { feature, .. } => (None, *feature, !is_found || is_whole(&mut points_px)),
+        };
+        Some(Self { quantity, feature, closed, points_px })
+    }
+}
+
+/// Whether the points of a rim that was found go all the way round; where they do not, they now begin after the widest gap.
+fn is_whole(points_px: &mut [[f64; 2]]) -> bool {
+    let count = points_px.len();
+    let gap = |i: usize| -> f64 {
+        let ([x, y], [next_x, next_y]) = (points_px[i], points_px[(i + 1) % count]);
+        (next_x - x).hypot(next_y - y)
+    };
+    let mut gaps: Vec<(f64, usize)> = (0..count).map(|i| (gap(i), i)).collect();
+    gaps.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (Some(&(widest, at)), Some(&(median, _))) = (gaps.last(), gaps.get(count / 2)) else { return true };
+    if widest <= HIDDEN * median {
+        return true;
+    }
+    points_px.rotate_left((at + 1) % count);
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+    use super::*;
+
+    fn ring(from: u32, to: u32) -> Vec<Point2<f64>> {
+        let at = |i: u32| f64::from(i).to_radians().sin_cos();
+        (from..to).map(|i| Point2::new(300.0 + 200.0 * at(i).1, 250.0 + 100.0 * at(i).0)).collect()
+    }
+
+    fn shown(points_px: Vec<Point2<f64>>, is_found: bool) -> ShownMark {
+        ShownMark::of(&Mark::Outline { feature: Feature::Rim, points_px }, is_found, Some).unwrap()
+    }
+
+    #[test]
+    fn curves_are_thinned_and_stay_where_they_are() {
+        let mark = shown(ring(0, 360), true);
+        assert_eq!((mark.points_px.len(), mark.closed), (72, true));
+        let off = |[x, y]: [f64; 2]| (((x - 300.0) / 200.0).hypot((y - 250.0) / 100.0) - 1.0).abs();
+        assert!(mark.points_px.into_iter().all(|point| off(point) < 0.001));
+    }
+
+    #[test]
+    fn no_chord_runs_over_what_hides_a_rim() {
+        let mut points = ring(90, 360);
+        points.extend(ring(0, 30)); // 30 to 90 degrees are hidden
+        let mark = shown(points.clone(), true);
+        assert!(!mark.closed);
+        let [x, y] = mark.points_px[0];
+        assert!((x - 300.0).hypot(y - 350.0) < 0.1, "it begins after the gap: {x} {y}");
+        assert!(shown(points, false).closed, "a person's polygon is closed as it was drawn");
+    }
+
+    #[test]
+    fn what_the_recorded_picture_does_not_show_is_left_out() {
+        let line = Mark::Line { quantity: Quantity::Diameter, ends_px: [Point2::new(1.0, 2.0), Point2::new(3.0, 4.0)] };
+        assert!(ShownMark::of(&line, false, |point| (point.x < 2.0).then_some(point)).is_none());
+        let mark = ShownMark::of(&line, false, Some).unwrap();
+        assert_eq!((mark.quantity, mark.closed), (Some(Quantity::Diameter), false));
+    }
+}
