@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::arcs::Arc;
 use super::buckets::Buckets;
 use super::floor::Floors;
-use super::raster::Raster;
+use super::raster::{Raster, Window};
 use super::wall::{Wall, Walls};
 
 /// Height of a rim above the table.
@@ -132,12 +132,20 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
     let away = rim.disc.x.hypot(rim.disc.y);
     let scale = std::f64::consts::TAU * rim.disc.radius / rim.perimeter_px;
     // The lowest foot that is tried, and what is around it.
-    let lowest = away * (1.0 - shrink(rim, camera_mm, TRIED.1)) + rim.disc.radius;
-    let center = [rim.disc.x, rim.disc.y];
+    let furthest = away * (1.0 - shrink(rim, camera_mm, TRIED.1));
+    let (lowest, center) = (furthest + rim.disc.radius, [rim.disc.x, rim.disc.y]);
+    let toward = center.map(|c| -c / away.max(1e-9));
     #[expect(clippy::cast_possible_truncation, reason = "levels")]
     let least = (AS_STRONG * rim.contrast) as f32;
-    let outside = Raster::of(buckets, center, lowest.min(FURTHEST * rim.disc.radius), scale, least);
-    let inside = Raster::of(buckets, center, rim.disc.radius, scale, 0.0);
+    let outside = Raster::of(
+        buckets,
+        center,
+        lowest.min(FURTHEST * rim.disc.radius),
+        around(rim, toward, furthest),
+        scale,
+        least,
+    );
+    let inside = Raster::of(buckets, center, rim.disc.radius, around(rim, toward, 0.0), scale, 0.0);
     let chances = |raster: &Raster, rings| raster.chances(&rim.disc, rings, CHANCE);
     let floors = Floors::new(rim, &inside, &chances(&inside, WITHIN), scale, camera_mm);
     let walls = Walls::new(rim, &outside, &chances(&outside, AROUND), scale, camera_mm);
@@ -160,6 +168,19 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
         ratio *= TRIED.2;
     }
     trials
+}
+
+/// What the places lie in that are looked at for any height: about the rim, where chance is counted, and discs no wider than
+/// it, from its centre towards the furthest foot.
+fn around(rim: &Arc, toward: [f64; 2], furthest: f64) -> Window {
+    let (from, radius) = ([rim.disc.x, rim.disc.y], rim.disc.radius);
+    let corner = |pick: fn(f64, f64) -> f64, side: f64| {
+        [0, 1].map(|axis| {
+            let foot = from[axis] + toward[axis] * furthest + side * FOOT.1 * radius;
+            pick(from[axis] + side * AROUND[1] * radius, foot)
+        })
+    };
+    [corner(f64::min, -1.0), corner(f64::max, 1.0)]
 }
 
 /// Logarithms of how common a height (over diameter) is among plates, and among bowls and cups, of this diameter; per
