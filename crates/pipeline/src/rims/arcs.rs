@@ -1,7 +1,8 @@
 //! A likely circle fitted to the edges along it, and how much of it they cover.
 
+use nalgebra::{SMatrix, SVector};
+
 use super::buckets::Buckets;
-use super::fitting::Near;
 use super::ground::GroundEdge;
 use super::votes::Disc;
 
@@ -25,17 +26,15 @@ const PASSES: [Pass; 4] = [
 /// Least width of the ring, in scaled pixels; of the last pass.
 pub(super) const RING_PX: f32 = 1.5;
 /// An edge of a circle points to its centre within 18 degrees.
-pub(super) const LEAST_COSINE: f32 = 0.95;
+const LEAST_COSINE: f32 = 0.95;
 /// Edges with less than this cosine (40 degrees off) certainly belong to something else.
 const OTHER_COSINE: f32 = 0.766;
 /// Edges that a fit may meet lie in a ring of this width around its start, in radii ...
 const GATHERED: f32 = 0.25;
 /// ... and point to its start's centre within about 30 degrees.
 const GATHERED_COSINE: f32 = 0.86;
-/// After the first steps, edges further from the circle than this are left out ...
+/// After the rough steps, edges further from the circle than this are left out.
 const KEPT: f32 = 0.12;
-/// ... and before the last ones those further than this many rings.
-const CLOSE: f32 = 2.0;
 /// The ring about the rim in which other edges are counted, in radii.
 const AROUND: f32 = 0.25;
 /// A circle with less edge in its ring after the rough steps, relative to its length, is given up ...
@@ -77,6 +76,15 @@ fn relative(e: &GroundEdge, disc: &Disc) -> (f32, f32) {
     (distance, (dx * e.nx + dy * e.ny) / distance)
 }
 
+/// Whether an edge is further than this from the circle (mm): told without a root.
+#[expect(clippy::cast_possible_truncation, reason = "mm")]
+fn is_off(e: &GroundEdge, disc: &Disc, least: f32) -> bool {
+    let (dx, dy, radius) = (e.x - disc.x as f32, e.y - disc.y as f32, disc.radius as f32);
+    let squared = dx * dx + dy * dy;
+    let (inner, outer) = ((radius - least).max(0.0), radius + least);
+    !(inner * inner..=outer * outer).contains(&squared)
+}
+
 /// A circle on its way, and how far from round it is allowed to look.
 #[derive(Clone, Copy)]
 pub(super) struct Trial {
@@ -86,6 +94,12 @@ pub(super) struct Trial {
 }
 
 impl Trial {
+    /// How far the curve is from the circle at most, in mm, and a little more.
+    #[expect(clippy::cast_possible_truncation, reason = "mm")]
+    fn most_off(&self) -> f32 {
+        self.oval[0].hypot(self.oval[1]) as f32 + 1e-2
+    }
+
     /// Distance of an edge outside the curve in mm, and the direction to it from the centre.
     fn off(&self, e: &GroundEdge, distance: f32) -> (f32, [f64; 2]) {
         let d = f64::from(distance);
@@ -93,17 +107,6 @@ impl Trial {
         let oval = self.oval[0] * (cos * cos - sin * sin) + self.oval[1] * 2.0 * cos * sin;
         #[expect(clippy::cast_possible_truncation, reason = "mm")]
         ((d - self.disc.radius - oval) as f32, [cos, sin])
-    }
-
-    /// The circle after a step; none where it has gone astray.
-    pub(super) fn moved(&self, disc: [f64; 3], oval: [f64; 2]) -> Option<Self> {
-        let disc = Disc { x: self.disc.x + disc[0], y: self.disc.y + disc[1], radius: self.disc.radius + disc[2] };
-        let mut oval = [self.oval[0] + oval[0], self.oval[1] + oval[1]];
-        let (size, most) = (oval[0].hypot(oval[1]), self.most_oval * disc.radius);
-        if size > most {
-            oval = oval.map(|o| o * most / size);
-        }
-        (disc.radius > 0.0 && disc.x.is_finite() && disc.y.is_finite()).then_some(Self { disc, oval, ..*self })
     }
 
     /// For an edge that runs along circles about the centre: its distance outside the curve in mm, and its bin.
@@ -119,74 +122,147 @@ impl Trial {
     }
 }
 
-/// Fits a likely circle to the edges near it; none when it has too few, or runs away. The rough steps take `pieces` of
-/// chains, the fine ones each edge. `most_oval`: how far from round, relative to its radius, it may look for an error of the
-/// pose.
-pub(super) fn fit(buckets: &Buckets, pieces: &Buckets, start: &Disc, most_oval: f64) -> Option<Arc> {
+/// Fits a likely circle to the edges near it; none when it has too few, or runs away. `most_oval`: how far from round,
+/// relative to its radius, it may look for an error of the pose.
+pub(super) fn fit(buckets: &Buckets, start: &Disc, most_oval: f64) -> Option<Arc> {
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let radius = start.radius as f32;
-    let mut near = gather(pieces, start, GATHERED * radius);
+    let mut near: Vec<GroundEdge> = Vec::new();
+    buckets.near_rim(start, GATHERED * radius, |e| {
+        if relative(e, start).1.abs() > GATHERED_COSINE {
+            near.push(*e);
+        }
+    });
     let mut trial = Trial { disc: *start, oval: [0.0; 2], most_oval: 0.0 };
-    for (number, Pass { width, steps, oval }) in PASSES.into_iter().enumerate() {
+    for Pass { width, steps, oval } in PASSES {
         if oval && trial.most_oval <= 0.0 {
-            if near.share(&trial, width) < LEAST_START {
+            if share(&near, &trial, width) < LEAST_START {
                 return None;
             }
-            near = close_to(buckets, &trial, width * radius);
             trial.most_oval = most_oval;
-        } else if number > 0 {
-            near = near.kept(&trial, KEPT);
+            near.retain(|e| (relative(e, &trial.disc).0 / radius - 1.0).abs() < KEPT);
         }
         for _ in 0..steps {
-            trial = near.step(&trial, width)?;
+            trial = step(&near, &trial, width)?;
             let moved = (trial.disc.x - start.x).hypot(trial.disc.y - start.y);
             if moved > 0.3 * start.radius || !(0.75..1.33).contains(&(trial.disc.radius / start.radius)) {
                 return None;
             }
         }
     }
-    if near.share(&trial, 0.0) < LEAST_SHARE {
+    if share(&near, &trial, 0.0) < LEAST_SHARE {
         return None;
     }
-    let arc = support(&buckets.ring(&trial.disc, AROUND * radius), &trial);
-    (arc.coverage >= LEAST_COVERAGE).then_some(arc)
+    let arc = support(&near, &trial);
+    if arc.coverage < LEAST_COVERAGE {
+        return None;
+    }
+    Some(support(&buckets.ring(&trial.disc, AROUND * radius), &trial))
 }
 
-/// The edges that fine steps may meet: a few times as far from the circle as they look. `ring`: the width of theirs in mm.
-#[expect(clippy::cast_possible_truncation, reason = "mm")]
-fn close_to(buckets: &Buckets, trial: &Trial, ring: f32) -> Near {
-    let mut near = Near::new([trial.disc.x, trial.disc.y]);
-    buckets.near_rim(&trial.disc, GATHERED * trial.disc.radius as f32, |e| {
+/// Length of the edges along a circle, relative to it.
+fn share(edges: &[GroundEdge], trial: &Trial, width: f32) -> f32 {
+    #[expect(clippy::cast_possible_truncation, reason = "mm")]
+    let radius = trial.disc.radius as f32;
+    let oval = trial.most_off();
+    let along = |e: &&GroundEdge| {
+        let ring = (width * radius).max(RING_PX * e.scale);
+        if is_off(e, &trial.disc, ring + oval) {
+            return false;
+        }
         let (distance, cosine) = relative(e, &trial.disc);
-        let reach = CLOSE * ring.max(RING_PX * e.scale);
-        if cosine.abs() > GATHERED_COSINE && trial.off(e, distance).0.abs() < reach {
-            near.push(e);
-        }
-    });
-    near
-}
-
-/// The edges that may belong to a circle near this one.
-fn gather(edges: &Buckets, disc: &Disc, width: f32) -> Near {
-    let mut near = Near::new([disc.x, disc.y]);
-    edges.near_rim(disc, width, |e| {
-        if relative(e, disc).1.abs() > GATHERED_COSINE {
-            near.push(e);
-        }
-    });
-    near
+        cosine.abs() >= LEAST_COSINE && trial.off(e, distance).0.abs() <= ring
+    };
+    edges.iter().filter(along).map(|e| e.length).sum::<f32>() / (std::f32::consts::TAU * radius)
 }
 
 /// Fits again, from close by.
 pub(super) fn refit(buckets: &Buckets, start: &Arc, most_oval: f64) -> Option<Arc> {
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let radius = start.disc.radius as f32;
-    let near = gather(buckets, &start.disc, KEPT * radius);
+    let near = buckets.ring(&start.disc, 0.3 * radius);
     let mut trial = Trial { disc: start.disc, oval: start.oval, most_oval };
     for width in [0.02, 0.0, 0.0, 0.0] {
-        trial = near.step(&trial, width)?;
+        trial = step(&near, &trial, width)?;
     }
-    Some(support(&buckets.ring(&start.disc, 0.3 * radius), &trial))
+    Some(support(&near, &trial))
+}
+
+/// One Gauss-Newton step with Tukey's weights, of centre and radius and, where the circle may look oval, of that.
+fn step(edges: &[GroundEdge], trial: &Trial, width: f32) -> Option<Trial> {
+    if trial.most_oval > 0.0 {
+        let (mut normal, mut right) = normal_equations(edges, trial, width, |cos, sin| {
+            SVector::<f64, 5>::from([cos, sin, 1.0, cos * cos - sin * sin, 2.0 * cos * sin])
+        });
+        let sigma = 0.5 * trial.most_oval * trial.disc.radius;
+        for i in 3..5 {
+            normal[(i, i)] += 1.0 / (sigma * sigma);
+            right[i] -= trial.oval[i - 3] / (sigma * sigma);
+        }
+        let change = normal.cholesky()?.solve(&right);
+        moved(trial, [change[0], change[1], change[2]], [change[3], change[4]])
+    } else {
+        let (normal, right) =
+            normal_equations(edges, trial, width, |cos, sin| SVector::<f64, 3>::from([cos, sin, 1.0]));
+        let change = normal.cholesky()?.solve(&right);
+        moved(trial, [change[0], change[1], change[2]], [0.0; 2])
+    }
+}
+
+/// The normal equations of the edges' distances from the curve. `row`: derivatives by the unknowns in a direction.
+fn normal_equations<const N: usize>(
+    edges: &[GroundEdge],
+    trial: &Trial,
+    width: f32,
+    row: impl Fn(f64, f64) -> SVector<f64, N>,
+) -> (SMatrix<f64, N, N>, SVector<f64, N>) {
+    let (mut normal, mut right) = (SMatrix::<f64, N, N>::zeros(), SVector::<f64, N>::zeros());
+    #[expect(clippy::cast_possible_truncation, reason = "mm")]
+    let radius = trial.disc.radius as f32;
+    let oval = trial.most_off();
+    for e in edges {
+        let ring = (width * radius).max(RING_PX * e.scale);
+        if is_off(e, &trial.disc, ring + oval) {
+            continue;
+        }
+        let (distance, cosine) = relative(e, &trial.disc);
+        if cosine.abs() < LEAST_COSINE {
+            continue;
+        }
+        let (off, [cos, sin]) = trial.off(e, distance);
+        if off.abs() >= ring {
+            continue;
+        }
+        let tukey = (1.0 - (off / ring).powi(2)).powi(2);
+        // An edge stands for its length; its place is uncertain by pixels.
+        let weight = f64::from(tukey * e.length / (e.scale * e.scale * e.scale));
+        let row = row(cos, sin);
+        let weighted = row * weight;
+        for i in 0..N {
+            for j in i..N {
+                normal[(i, j)] += row[i] * weighted[j];
+            }
+        }
+        right += weighted * f64::from(off);
+    }
+    normal.fill_lower_triangle_with_upper_triangle();
+    // Too short an arc does not fix a circle: keep it still rather than let it run.
+    let damping = 1e-3 * normal[(2, 2)];
+    for i in 0..3 {
+        normal[(i, i)] += damping;
+    }
+    (normal, right)
+}
+
+/// A circle after a step; none where it has gone astray.
+fn moved(trial: &Trial, disc: [f64; 3], oval: [f64; 2]) -> Option<Trial> {
+    let disc = Disc { x: trial.disc.x + disc[0], y: trial.disc.y + disc[1], radius: trial.disc.radius + disc[2] };
+    let mut oval = [trial.oval[0] + oval[0], trial.oval[1] + oval[1]];
+    let (size, most) = (oval[0].hypot(oval[1]), trial.most_oval * disc.radius);
+    if size > most {
+        oval = oval.map(|o| o * most / size);
+    }
+    (disc.radius > 0.0 && disc.x.is_finite() && disc.y.is_finite()).then_some(Trial { disc, oval, ..*trial })
 }
 
 /// The edges along a circle.

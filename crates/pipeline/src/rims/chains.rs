@@ -55,7 +55,7 @@ pub(super) fn chains(found: &Edges) -> Vec<Vec<u32>> {
 /// The nearest edge among the eight neighbours ahead (`sense` 1) or behind (-1) whose gradient points alike.
 fn best_neighbour(found: &Edges, x: usize, y: usize, index: u32, sense: f32) -> u32 {
     let e = found.edges[index as usize];
-    let size = (e.gx * e.gx + e.gy * e.gy).sqrt();
+    let size = e.gx.hypot(e.gy);
     let (tx, ty) = (sense * e.gy / size, -sense * e.gx / size);
     let (mut best, mut best_cost) = (NONE, f32::INFINITY);
     for row in y - 1..=y + 1 {
@@ -67,9 +67,8 @@ fn best_neighbour(found: &Edges, x: usize, y: usize, index: u32, sense: f32) -> 
             let o = found.edges[other as usize];
             let (dx, dy) = (o.x - e.x, o.y - e.y);
             let ahead = dx * tx + dy * ty;
-            let alike = e.gx * o.gx + e.gy * o.gy;
-            let least = LEAST_COSINE * size * (o.gx * o.gx + o.gy * o.gy).sqrt();
-            if ahead <= 0.0 || alike < least {
+            let alike = (e.gx * o.gx + e.gy * o.gy) / (size * o.gx.hypot(o.gy));
+            if ahead <= 0.0 || alike < LEAST_COSINE {
                 continue;
             }
             let cost = (dx * ty - dy * tx).abs() + 0.3 * ahead;

@@ -67,51 +67,19 @@ impl Rays {
         let top = ray(0, 0)? * (1.0 - u) + ray(1, 0)? * u;
         let bottom = ray(0, 1)? * (1.0 - u) + ray(1, 1)? * u;
         let ray = top * (1.0 - v) + bottom * v;
-        if ray.z >= 0.0 || ray.z * ray.z <= LEAST_DEPRESSION_SINE * LEAST_DEPRESSION_SINE * ray.norm_squared() {
+        if -ray.z <= LEAST_DEPRESSION_SINE * ray.norm() {
             return None;
         }
         Some(ray.xy() * (self.camera_height_mm / -ray.z))
     }
 }
 
-/// Neighbours on a chain that make one piece.
-const PIECE: usize = 3;
-
-/// What lies on the plane Z = 0.
-#[derive(Default)]
-pub(super) struct Ground {
-    /// Every edge of the chains.
-    pub edges: Vec<GroundEdge>,
-    /// The same, a few neighbours to a piece: enough to see where circles may be.
-    pub pieces: Vec<GroundEdge>,
-}
-
-/// Several neighbours on a chain as one.
-fn piece(edges: &[GroundEdge]) -> GroundEdge {
-    let sum = |of: fn(&GroundEdge) -> f32| edges.iter().map(of).sum::<f32>();
-    #[expect(clippy::cast_precision_loss, reason = "a handful of edges")]
-    let mean = |of: fn(&GroundEdge) -> f32| sum(of) / edges.len() as f32;
-    let (nx, ny) = (sum(|e| e.nx), sum(|e| e.ny));
-    let size = (nx * nx + ny * ny).sqrt().max(1e-6);
-    GroundEdge {
-        x: mean(|e| e.x),
-        y: mean(|e| e.y),
-        nx: nx / size,
-        ny: ny / size,
-        length: sum(|e| e.length),
-        scale: mean(|e| e.scale),
-        worst_scale: mean(|e| e.worst_scale),
-        contrast: mean(|e| e.contrast),
-    }
-}
-
 /// The chains of a picture's edges on the plane Z = 0.
-pub(super) fn ground_edges(view: &View, scaled: &Scaled) -> Ground {
+pub(super) fn ground_edges(view: &View, scaled: &Scaled) -> Vec<GroundEdge> {
     let found = Edges::of(scaled);
     let rays = Rays::of(view, scaled);
-    let mut ground = Ground::default();
+    let mut all = Vec::new();
     for chain in chains(&found) {
-        let before = ground.edges.len();
         let places: Vec<_> = chain
             .iter()
             .map(|i| {
@@ -137,7 +105,7 @@ pub(super) fn ground_edges(view: &View, scaled: &Scaled) -> Ground {
             #[expect(clippy::cast_precision_loss, reason = "a handful of edges")]
             let length = chord.norm() / (after - before) as f64;
             #[expect(clippy::cast_possible_truncation, reason = "mm on a table")]
-            ground.edges.push(GroundEdge {
+            all.push(GroundEdge {
                 x: here.x as f32,
                 y: here.y as f32,
                 nx: tangent.y as f32,
@@ -145,10 +113,9 @@ pub(super) fn ground_edges(view: &View, scaled: &Scaled) -> Ground {
                 length: length as f32,
                 scale: (right.perp(&down).abs() / along) as f32,
                 worst_scale: right.norm().max(down.norm()) as f32,
-                contrast: (e.gx * e.gx + e.gy * e.gy).sqrt(),
+                contrast: e.gx.hypot(e.gy),
             });
         }
-        ground.pieces.extend(ground.edges[before..].chunks(PIECE).map(piece));
     }
-    ground
+    all
 }

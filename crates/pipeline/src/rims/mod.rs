@@ -13,7 +13,6 @@ mod arcs;
 mod buckets;
 mod chains;
 mod edges;
-mod fitting;
 mod floor;
 mod found;
 mod ground;
@@ -112,9 +111,8 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
         return Err(RimError::Bytes { found: picture.rgb.len(), expected });
     }
     let scaled = Scaled::of(picture);
-    let ground = ground::ground_edges(view, &scaled);
-    let (buckets, pieces) = (Buckets::new(&ground.edges), Buckets::new(&ground.pieces));
-    let found = search::rims(view, &buckets, &pieces);
+    let buckets = Buckets::new(&ground::ground_edges(view, &scaled));
+    let found = search::rims(view, &buckets);
     let mut rims: Vec<Rim> =
         found.iter().filter_map(|found| in_full(picture, view, &buckets, found, scaled.factor)).collect();
     rims.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));

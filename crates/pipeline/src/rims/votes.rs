@@ -92,13 +92,12 @@ impl Layer {
         }
         let (left, near) = (low[0] - radius - 2.0 * cell, low[1] - radius - 2.0 * cell);
         let mut layer = Self { radius, left, near, columns, rows, shares: vec![0.0; columns * rows] };
-        let (per_mm, per_cell) = (1.0 / (std::f32::consts::TAU * radius), 1.0 / cell);
+        let per_mm = 1.0 / (std::f32::consts::TAU * radius);
         for e in edges.iter().filter(fits) {
             let share = e.length * per_mm;
             for side in [radius, -radius] {
-                // Positive, and small: by way of i32, which is quicker.
-                let column = ((e.x + side * e.nx - left) * per_cell) as i32 as usize;
-                let row = ((e.y + side * e.ny - near) * per_cell) as i32 as usize;
+                let column = ((e.x + side * e.nx - left) / cell) as usize;
+                let row = ((e.y + side * e.ny - near) / cell) as usize;
                 layer.shares[row * columns + column] += share;
             }
         }
