@@ -232,7 +232,7 @@ fn a_rim_is_found_without_marks() {
     paint_disc(&scene.path("picture.png"));
     let (camera, picture, overlay) = (scene.path("cam.toml"), scene.path("picture.png"), scene.path("overlay.png"));
     let found = |more: &[&str]| run([&["measure", &picture, "--camera", &camera, "--auto"], &POSE[..], more].concat());
-    let output = found(&["--kind=plate", "--json", "--overlay", &overlay]);
+    let output = found(&["--kind=plate", "--rim-height=0", "--json", "--overlay", &overlay]);
     assert_exit(&output, 0);
     let rows: Vec<Value> = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(rows.len(), 2, "one diameter by each method");
@@ -249,6 +249,12 @@ fn a_rim_is_found_without_marks() {
     let drawn = image::open(&overlay).unwrap().to_rgb8();
     assert_eq!(drawn.dimensions(), (1280, 960));
     assert_ne!(drawn, image::open(&picture).unwrap().to_rgb8());
+
+    // A plate's rim stands above the table, nobody knows exactly how far.
+    let rows: Vec<Value> = serde_json::from_str(&stdout(&found(&["--kind=plate", "--json"]))).unwrap();
+    let plate = rows.iter().find(|row| row["method"] == "ray").unwrap();
+    let (size_mm, sigma_mm) = (plate["predicted_mm"].as_f64().unwrap(), plate["sigma_mm"].as_f64().unwrap());
+    assert!((185.0..198.0).contains(&size_mm) && (size_mm - 200.0).abs() < 3.0 * sigma_mm, "{size_mm} +- {sigma_mm} mm");
 
     // A bowl of unknown height is smaller, for its rim is nearer, and less certain.
     let rows: Vec<Value> = serde_json::from_str(&stdout(&found(&["--kind=bowl", "--json"]))).unwrap();
