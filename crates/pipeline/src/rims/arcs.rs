@@ -72,8 +72,17 @@ pub(super) struct Arc {
 fn relative(e: &GroundEdge, disc: &Disc) -> (f32, f32) {
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let (dx, dy) = (e.x - disc.x as f32, e.y - disc.y as f32);
-    let distance = dx.hypot(dy).max(1e-6);
+    let distance = (dx * dx + dy * dy).sqrt().max(1e-6);
     (distance, (dx * e.nx + dy * e.ny) / distance)
+}
+
+/// Whether an edge is further than this from the circle (mm): told without a root.
+#[expect(clippy::cast_possible_truncation, reason = "mm")]
+fn is_off(e: &GroundEdge, disc: &Disc, least: f32) -> bool {
+    let (dx, dy, radius) = (e.x - disc.x as f32, e.y - disc.y as f32, disc.radius as f32);
+    let squared = dx * dx + dy * dy;
+    let (inner, outer) = ((radius - least).max(0.0), radius + least);
+    !(inner * inner..=outer * outer).contains(&squared)
 }
 
 /// A circle on its way, and how far from round it is allowed to look.
@@ -85,6 +94,12 @@ pub(super) struct Trial {
 }
 
 impl Trial {
+    /// How far the curve is from the circle at most, in mm, and a little more.
+    #[expect(clippy::cast_possible_truncation, reason = "mm")]
+    fn most_off(&self) -> f32 {
+        self.oval[0].hypot(self.oval[1]) as f32 + 1e-2
+    }
+
     /// Distance of an edge outside the curve in mm, and the direction to it from the centre.
     fn off(&self, e: &GroundEdge, distance: f32) -> (f32, [f64; 2]) {
         let d = f64::from(distance);
@@ -149,9 +164,14 @@ pub(super) fn fit(buckets: &Buckets, start: &Disc, most_oval: f64) -> Option<Arc
 fn share(edges: &[GroundEdge], trial: &Trial, width: f32) -> f32 {
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let radius = trial.disc.radius as f32;
+    let oval = trial.most_off();
     let along = |e: &&GroundEdge| {
+        let ring = (width * radius).max(RING_PX * e.scale);
+        if is_off(e, &trial.disc, ring + oval) {
+            return false;
+        }
         let (distance, cosine) = relative(e, &trial.disc);
-        cosine.abs() >= LEAST_COSINE && trial.off(e, distance).0.abs() <= (width * radius).max(RING_PX * e.scale)
+        cosine.abs() >= LEAST_COSINE && trial.off(e, distance).0.abs() <= ring
     };
     edges.iter().filter(along).map(|e| e.length).sum::<f32>() / (std::f32::consts::TAU * radius)
 }
@@ -199,12 +219,16 @@ fn normal_equations<const N: usize>(
     let (mut normal, mut right) = (SMatrix::<f64, N, N>::zeros(), SVector::<f64, N>::zeros());
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let radius = trial.disc.radius as f32;
+    let oval = trial.most_off();
     for e in edges {
+        let ring = (width * radius).max(RING_PX * e.scale);
+        if is_off(e, &trial.disc, ring + oval) {
+            continue;
+        }
         let (distance, cosine) = relative(e, &trial.disc);
         if cosine.abs() < LEAST_COSINE {
             continue;
         }
-        let ring = (width * radius).max(RING_PX * e.scale);
         let (off, [cos, sin]) = trial.off(e, distance);
         if off.abs() >= ring {
             continue;

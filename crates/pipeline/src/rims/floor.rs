@@ -1,8 +1,7 @@
 //! The floor of a bowl or the well of a plate, seen within the rim.
 
 use super::arcs::Arc;
-use super::height::says;
-use super::raster::{Chances, Raster};
+use super::raster::{Chances, Odds, Raster, Sector};
 
 /// Height of a floor above the table, in mm: foot ring and thickness; and how common.
 const LEVELS: [(f64, f64); 3] = [(4.0, 0.25), (7.5, 0.5), (11.0, 0.25)];
@@ -14,22 +13,34 @@ const SHOWS: f64 = 0.7;
 /// ... and so many floors show.
 const SHOWING: f64 = 0.5;
 /// Places that are looked at.
-const PLACES: u32 = 48;
+const PLACES: usize = 48;
 /// Scaled pixels from the rim within which edges are the rim's.
 const CLEAR_PX: f64 = 4.0;
 
 /// Where floors are looked for.
 pub(super) struct Floors<'a> {
-    pub rim: &'a Arc,
-    pub raster: &'a Raster,
-    /// Chance of an edge that means nothing.
-    pub chances: Chances,
-    /// Millimetres per scaled pixel.
-    pub scale: f64,
-    pub camera_mm: f64,
+    rim: &'a Arc,
+    raster: &'a Raster,
+    odds: Odds,
+    /// Distance from the rim's centre, in mm, beyond which edges are the rim's.
+    clear_mm: f64,
+    camera_mm: f64,
+    /// Unit vectors to the places that are looked at, which are the normals there.
+    places: [([f64; 2], Sector); PLACES],
 }
 
-impl Floors<'_> {
+impl<'a> Floors<'a> {
+    /// `chances`: of edges that mean nothing. `scale`: mm per scaled pixel.
+    pub(super) fn new(rim: &'a Arc, raster: &'a Raster, chances: &Chances, scale: f64, camera_mm: f64) -> Self {
+        let places = std::array::from_fn(|place| {
+            #[expect(clippy::cast_precision_loss, reason = "a few places")]
+            let angle = place as f64 / PLACES as f64 * std::f64::consts::TAU;
+            ([angle.cos(), angle.sin()], Sector::of(angle))
+        });
+        let clear_mm = (rim.disc.radius - CLEAR_PX * scale).max(0.0);
+        Self { rim, raster, odds: chances.odds(SHOWS), clear_mm, camera_mm, places }
+    }
+
     /// Logarithm of how much likelier the edges within the rim are if it is as high as this than if nothing is known.
     pub(super) fn seen(&self, height_mm: f64) -> f64 {
         let (mut sum, mut all) = (0.0, 0.0);
@@ -52,11 +63,10 @@ impl Floors<'_> {
         let rim = &self.rim.disc;
         let radius = ratio * rim.radius * t;
         let mut sum = 0.0;
-        for place in 0..PLACES {
-            let angle = f64::from(place) / f64::from(PLACES) * std::f64::consts::TAU;
-            let at = [rim.x * t + radius * angle.cos(), rim.y * t + radius * angle.sin()];
-            if (at[0] - rim.x).hypot(at[1] - rim.y) < rim.radius - CLEAR_PX * self.scale {
-                sum += says(self.raster.has_edge(at, angle), SHOWS, self.chances.of(angle));
+        for ([cos, sin], normal) in self.places {
+            let at = [rim.x * t + radius * cos, rim.y * t + radius * sin];
+            if (at[0] - rim.x).powi(2) + (at[1] - rim.y).powi(2) < self.clear_mm * self.clear_mm {
+                sum += self.raster.says(at, normal, &self.odds);
             }
         }
         sum

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use super::arcs::Arc;
 use super::buckets::Buckets;
 use super::floor::Floors;
-use super::raster::Raster;
-use super::wall::Outline;
+use super::raster::{Raster, Window};
+use super::wall::{Wall, Walls};
 
 /// Height of a rim above the table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -68,8 +68,6 @@ const FOOT: (f64, f64, f64) = (0.3, 1.04, 0.06);
 const ROUND: [f64; 3] = [0.0, 0.45, 0.9];
 /// A foot is looked for within this many radii of the rim's centre.
 const FURTHEST: f64 = 6.0;
-/// Scaled pixels between the places that are looked at.
-const STEP_PX: f64 = 3.0;
 /// Walls bulge, feet have rounded edges and shadows: relative standard deviation of a height from that.
 const MODEL: f64 = 0.1;
 /// Least and greatest chance of an edge that means nothing.
@@ -134,15 +132,23 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
     let away = rim.disc.x.hypot(rim.disc.y);
     let scale = std::f64::consts::TAU * rim.disc.radius / rim.perimeter_px;
     // The lowest foot that is tried, and what is around it.
-    let lowest = away * (1.0 - shrink(rim, camera_mm, TRIED.1)) + rim.disc.radius;
-    let center = [rim.disc.x, rim.disc.y];
+    let furthest = away * (1.0 - shrink(rim, camera_mm, TRIED.1));
+    let (lowest, center) = (furthest + rim.disc.radius, [rim.disc.x, rim.disc.y]);
+    let toward = center.map(|c| -c / away.max(1e-9));
     #[expect(clippy::cast_possible_truncation, reason = "levels")]
     let least = (AS_STRONG * rim.contrast) as f32;
-    let outside = Raster::of(buckets, center, lowest.min(FURTHEST * rim.disc.radius), scale, least);
-    let inside = Raster::of(buckets, center, rim.disc.radius, scale, 0.0);
+    let outside = Raster::of(
+        buckets,
+        center,
+        lowest.min(FURTHEST * rim.disc.radius),
+        around(rim, toward, furthest),
+        scale,
+        least,
+    );
+    let inside = Raster::of(buckets, center, rim.disc.radius, around(rim, toward, 0.0), scale, 0.0);
     let chances = |raster: &Raster, rings| raster.chances(&rim.disc, rings, CHANCE);
-    let floors = Floors { rim, raster: &inside, chances: chances(&inside, WITHIN), scale, camera_mm };
-    let chances = chances(&outside, AROUND);
+    let floors = Floors::new(rim, &inside, &chances(&inside, WITHIN), scale, camera_mm);
+    let walls = Walls::new(rim, &outside, &chances(&outside, AROUND), scale, camera_mm);
     let mut trials = Vec::new();
     let mut ratio = TRIED.0;
     while ratio < TRIED.1 {
@@ -153,8 +159,7 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
         for round in ROUND {
             let mut foot = FOOT.0;
             while foot < FOOT.1 {
-                let outline = Outline { rim, height_mm, camera_mm, foot, round, step: STEP_PX * scale };
-                let below = INDEPENDENT * outline.seen(&outside, &chances, scale);
+                let below = INDEPENDENT * walls.seen(&Wall { height_mm, foot, round });
                 let likely = -0.5 * ((foot - FEET.0) / FEET.1).powi(2);
                 trials.push(Trial { height_mm, below, within, plate: plate + likely, bowl: bowl + likely });
                 foot += FOOT.2;
@@ -163,6 +168,19 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
         ratio *= TRIED.2;
     }
     trials
+}
+
+/// What the places lie in that are looked at for any height: about the rim, where chance is counted, and discs no wider than
+/// it, from its centre towards the furthest foot.
+fn around(rim: &Arc, toward: [f64; 2], furthest: f64) -> Window {
+    let (from, radius) = ([rim.disc.x, rim.disc.y], rim.disc.radius);
+    let corner = |pick: fn(f64, f64) -> f64, side: f64| {
+        [0, 1].map(|axis| {
+            let foot = from[axis] + toward[axis] * furthest + side * FOOT.1 * radius;
+            pick(from[axis] + side * AROUND[1] * radius, foot)
+        })
+    };
+    [corner(f64::min, -1.0), corner(f64::max, 1.0)]
 }
 
 /// Logarithms of how common a height (over diameter) is among plates, and among bowls and cups, of this diameter; per
@@ -182,11 +200,4 @@ fn common(ratio: f64, diameter_mm: f64) -> (f64, f64) {
 /// D = 2 R (1 - H / c), with R the radius on Z = 0.
 fn shrink(rim: &Arc, camera_mm: f64, ratio: f64) -> f64 {
     1.0 / (1.0 + 2.0 * ratio * rim.disc.radius / camera_mm)
-}
-
-/// Logarithm of how much likelier it is with something there than without that an edge is seen at a place, or is not.
-/// `shows`: share of such places that show an edge; `chance`: of all others.
-pub(super) fn says(is_edge: bool, shows: f64, chance: f64) -> f64 {
-    let shows = shows.max(chance); // an edge speaks against nothing
-    if is_edge { (shows / chance).ln() } else { ((1.0 - shows) / (1.0 - chance)).ln() }
 }

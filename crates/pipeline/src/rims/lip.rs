@@ -7,7 +7,7 @@
 
 use ingest::Picture;
 use model::View;
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
 use super::arcs::Arc;
 use super::refine::colour;
@@ -80,13 +80,17 @@ fn edges(picture: &Picture, view: &View, arc: &Arc, angle: f64, px_mm: f64) -> V
     let off = |i: usize| (i as f64 - inward as f64) * step_mm;
     // The mean of five places along the rim, a pixel and a half apart, or less on a small one.
     let apart_mm = (1.5 * px_mm).min(0.015 * radius);
+    let lines = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|beside| {
+        let (sin, cos) = (angle + beside * apart_mm / radius).sin_cos();
+        Line::new((inward + outward) / Line::EVERY + 1, |node| {
+            let r = radius + off(node * Line::EVERY);
+            view.pixel_of(Point3::new(arc.disc.x + r * cos, arc.disc.y + r * sin, 0.0)).ok()
+        })
+    });
     let sample = |i: usize| -> Option<[f64; 3]> {
         let mut sum = [0.0; 3];
-        for beside in [-2.0, -1.0, 0.0, 1.0, 2.0] {
-            let turned = angle + beside * apart_mm / radius;
-            let r = radius + off(i);
-            let at = Point3::new(arc.disc.x + r * turned.cos(), arc.disc.y + r * turned.sin(), 0.0);
-            let c = colour(picture, view.pixel_of(at).ok()?)?;
+        for line in &lines {
+            let c = colour(picture, line.at(i)?)?;
             sum = [0, 1, 2].map(|k| sum[k] + c[k] / 5.0);
         }
         Some(sum)
@@ -106,6 +110,25 @@ fn edges(picture: &Picture, view: &View, arc: &Arc, angle: f64, px_mm: f64) -> V
             off(i + HALF) + 0.5 * (before - after) / (before - 2.0 * at + after) * step_mm
         })
         .collect()
+}
+
+/// Samples along a line: lenses bend slowly, so only every few of them are projected.
+struct Line(Vec<Option<Point2<f64>>>);
+
+impl Line {
+    /// Samples from one that is projected to the next: four pixels.
+    const EVERY: usize = 8;
+
+    fn new(last: usize, pixel_of: impl Fn(usize) -> Option<Point2<f64>>) -> Self {
+        Self((0..=last).map(pixel_of).collect())
+    }
+
+    fn at(&self, sample: usize) -> Option<Point2<f64>> {
+        let (from, to) = (self.0[sample / Self::EVERY]?, self.0[sample / Self::EVERY + 1]?);
+        #[expect(clippy::cast_precision_loss, reason = "a few samples")]
+        let share = (sample % Self::EVERY) as f64 / Self::EVERY as f64;
+        Some(from + (to - from) * share)
+    }
 }
 
 /// How far outside the circle the outermost one is that edges lie along in enough directions.

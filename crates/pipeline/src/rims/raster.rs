@@ -24,38 +24,60 @@ const RINGS: u32 = 16;
 /// Chance of an edge that means nothing, by the direction of its normal.
 pub(super) struct Chances([f64; SECTORS as usize]);
 
+/// What places say that show an edge at a given share of them: for each direction of the normal, the logarithm of how much
+/// likelier it is than by chance that no edge is seen there, and that one is.
+pub(super) struct Odds([[f64; 2]; SECTORS as usize]);
+
 impl Chances {
-    /// For a normal in this direction, to either side.
-    #[expect(clippy::cast_possible_truncation, reason = "an angle")]
-    pub(super) fn of(&self, normal_rad: f64) -> f64 {
-        self.0[sector(normal_rad as f32) as usize]
+    pub(super) fn odds(&self, shows: f64) -> Odds {
+        Odds(self.0.map(|chance| {
+            let shows = shows.max(chance); // an edge speaks against nothing
+            [((1.0 - shows) / (1.0 - chance)).ln(), (shows / chance).ln()]
+        }))
     }
 }
 
-/// Which normals edges have, by place.
+/// A direction of normals, to either side.
+#[derive(Clone, Copy)]
+pub(super) struct Sector(u8);
+
+impl Sector {
+    #[expect(clippy::cast_possible_truncation, reason = "an angle, a few sectors")]
+    pub(super) fn of(normal_rad: f64) -> Self {
+        Self(sector(normal_rad as f32) as u8)
+    }
+}
+
+/// Which normals edges have, by place, within a window.
 pub(super) struct Raster {
     left: f32,
     near: f32,
     cell: f32,
-    columns: usize,
+    columns: i64,
+    rows: i64,
     /// One bit per sector of directions.
     sectors: Vec<u16>,
 }
 
+/// Two corners in mm: the lowest x and y, and the highest.
+pub(super) type Window = [[f64; 2]; 2];
+
 impl Raster {
-    /// The edges within a square about a circle, that reaches as far as `reach` (mm) from its centre, and are at least as
-    /// strong as `least` (levels per scaled pixel). `scale`: mm per scaled pixel.
+    /// The edges within `reach` (mm) of a centre, as far as they lie in the window, that are at least as strong as `least`
+    /// (levels per scaled pixel). `scale`: mm per scaled pixel.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]
-    pub(super) fn of(buckets: &Buckets, center: [f64; 2], reach: f64, scale: f64, least: f32) -> Self {
+    pub(super) fn of(buckets: &Buckets, center: [f64; 2], reach: f64, window: Window, scale: f64, least: f32) -> Self {
         let cell = (scale / CELLS_PER_PX).max(2.0 * reach / MOST_CELLS);
-        let columns = (2.0 * reach / cell) as usize + 1;
-        let mut raster = Self {
-            left: (center[0] - reach) as f32,
-            near: (center[1] - reach) as f32,
-            cell: cell as f32,
-            columns,
-            sectors: vec![0; columns * columns],
+        // Cells are counted from the corner of the square about the centre, whatever the window.
+        let cells = |axis: usize| {
+            let corner = center[axis] - reach;
+            let [first, last] = window.map(|place| ((place[axis] - corner).clamp(0.0, 2.0 * reach) / cell).floor());
+            (corner + first * cell, (last - first) as i64 + 1)
         };
+        let ((left, columns), (near, rows)) = (cells(0), cells(1));
+        let (left, near, cell) = (left as f32, near as f32, cell as f32);
+        let sectors = vec![0; (columns * rows) as usize];
+        let mut raster = Self { left, near, cell, columns, rows, sectors };
         // All edges of the disc, as those near the rim of one half its size.
         let disc = Disc { x: center[0], y: center[1], radius: 0.75 * reach };
         buckets.near_rim(&disc, 0.76 * reach as f32, |e| {
@@ -69,26 +91,29 @@ impl Raster {
     /// Draws an edge.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "cells")]
     fn draw(&mut self, e: &GroundEdge) {
-        let bits = sectors_around(e.ny.atan2(e.nx));
         let (across, along) = (ACROSS_PX * e.scale, ALONG * e.length);
         let half = ((across + along) / self.cell) as i64 + 1;
         let (column, row) = self.cell_of(e.x, e.y);
-        let most = self.columns as i64;
-        for r in (row - half).max(0)..(row + half + 1).min(most) {
-            for c in (column - half).max(0)..(column + half + 1).min(most) {
+        let rows = (row - half).max(0)..(row + half + 1).min(self.rows);
+        let columns = (column - half).max(0)..(column + half + 1).min(self.columns);
+        if rows.is_empty() || columns.is_empty() {
+            return;
+        }
+        let bits = sectors_around(e.ny.atan2(e.nx));
+        for r in rows {
+            for c in columns.clone() {
                 let dx = self.left + (c as f32 + 0.5) * self.cell - e.x;
                 let dy = self.near + (r as f32 + 0.5) * self.cell - e.y;
                 if (dx * e.nx + dy * e.ny).abs() <= across && (dx * e.ny - dy * e.nx).abs() <= along {
-                    self.sectors[r as usize * self.columns + c as usize] |= bits;
+                    self.sectors[(r * self.columns + c) as usize] |= bits;
                 }
             }
         }
     }
 
-    /// Whether an edge with this normal (to either side) lies at a place.
-    #[expect(clippy::cast_possible_truncation, reason = "an angle")]
-    pub(super) fn has_edge(&self, at: [f64; 2], normal_rad: f64) -> bool {
-        self.sectors_at(at) & (1 << sector(normal_rad as f32)) != 0
+    /// What an edge with such a normal says at a place, or that there is none.
+    pub(super) fn says(&self, at: [f64; 2], normal: Sector, odds: &Odds) -> f64 {
+        odds.0[usize::from(normal.0)][usize::from(self.sectors_at(at) >> normal.0 & 1)]
     }
 
     /// For each sector of directions, the share of the places in a ring about a circle that have an edge with such a normal:
@@ -112,8 +137,8 @@ impl Raster {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]
     fn sectors_at(&self, at: [f64; 2]) -> u16 {
         let (column, row) = self.cell_of(at[0] as f32, at[1] as f32);
-        let inside = |i: i64| (0..self.columns as i64).contains(&i);
-        if inside(column) && inside(row) { self.sectors[row as usize * self.columns + column as usize] } else { 0 }
+        let is_inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
+        if is_inside { self.sectors[(row * self.columns + column) as usize] } else { 0 }
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "cells")]

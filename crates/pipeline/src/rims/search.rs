@@ -38,15 +38,20 @@ pub(super) fn rims(view: &View, buckets: &Buckets) -> Vec<Scored> {
         Scored { confidence: evidence.rank(), evidence, best: evidence, arc }
     };
     let likely = likely_discs(buckets.edges(), RADII_MM);
-    let fitted = |discs: &[&Disc]| -> Vec<Scored> {
-        let arcs = discs.iter().filter_map(|disc| arcs::fit(buckets, disc, most_oval(view, disc)));
+    // Each of the circles voted for is fitted once, if ever.
+    let mut fits: Vec<Option<Option<Arc>>> = vec![None; likely.all.len()];
+    let mut fitted = |discs: &[usize]| -> Vec<Scored> {
+        let arcs = discs.iter().filter_map(|i| {
+            let disc = &likely.all[*i];
+            fits[*i].get_or_insert_with(|| arcs::fit(buckets, disc, most_oval(view, disc))).clone()
+        });
         distinct(arcs.filter(|arc| arc.disc.radius >= RADII_MM[0]).collect()).into_iter().map(score).collect()
     };
-    let peaks: Vec<&Disc> = likely.peaks.iter().collect();
-    let found = select::one_per_container(fitted(&peaks), camera_mm, WORTH_A_TRY);
+    let found = select::one_per_container(fitted(&likely.peaks), camera_mm, WORTH_A_TRY);
     // A fit may end beside the best one, or on an inner edge: whatever was voted for nearby is tried as well, and led outward.
     let polished = found.into_iter().flat_map(|found| {
-        let near: Vec<&Disc> = likely.all.iter().filter(|disc| are_near(disc, &found.arc.disc)).collect();
+        let is_near = |i: &usize| are_near(&likely.all[*i], &found.arc.disc);
+        let near: Vec<usize> = (0..likely.all.len()).filter(is_near).collect();
         let mut tried = fitted(&near);
         tried.push(found);
         tried.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
@@ -80,5 +85,6 @@ fn are_near(a: &Disc, b: &Disc) -> bool {
 }
 
 fn are_same(a: &Disc, b: &Disc) -> bool {
-    (a.x - b.x).hypot(a.y - b.y) + (a.radius - b.radius).abs() < SAME * a.radius
+    let apart = ((a.x - b.x).powi(2) + (a.y - b.y).powi(2)).sqrt();
+    apart + (a.radius - b.radius).abs() < SAME * a.radius
 }

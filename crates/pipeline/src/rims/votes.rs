@@ -12,8 +12,8 @@ pub(super) struct Disc {
 
 /// Circles voted for, those with most votes for their length first.
 pub(super) struct Likely {
-    /// One for each group of neighbours.
-    pub peaks: Vec<Disc>,
+    /// One for each group of neighbours, by its place among all.
+    pub peaks: Vec<usize>,
     /// All of them.
     pub all: Vec<Disc>,
 }
@@ -47,10 +47,10 @@ pub(super) fn likely_discs(edges: &[GroundEdge], [smallest, largest]: [f64; 2]) 
     }
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     let all: Vec<Disc> = found.into_iter().map(|(disc, _)| disc).collect();
-    let mut peaks: Vec<Disc> = Vec::new();
-    for disc in &all {
-        if peaks.len() < MOST && !peaks.iter().any(|other| are_neighbours(disc, other)) {
-            peaks.push(*disc);
+    let mut peaks: Vec<usize> = Vec::new();
+    for (i, disc) in all.iter().enumerate() {
+        if peaks.len() < MOST && !peaks.iter().any(|other| are_neighbours(disc, &all[*other])) {
+            peaks.push(i);
         }
     }
     Likely { peaks, all }
@@ -60,7 +60,7 @@ pub(super) fn likely_discs(edges: &[GroundEdge], [smallest, largest]: [f64; 2]) 
 fn are_neighbours(a: &Disc, b: &Disc) -> bool {
     let ratio = a.radius / b.radius;
     (1.0 / NEIGHBOUR_RATIO..NEIGHBOUR_RATIO).contains(&ratio)
-        && (a.x - b.x).hypot(a.y - b.y) < 1.1 * f64::from(CELL) * a.radius
+        && (a.x - b.x).powi(2) + (a.y - b.y).powi(2) < (1.1 * f64::from(CELL) * a.radius).powi(2)
 }
 
 struct Layer {

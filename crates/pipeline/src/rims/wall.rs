@@ -1,8 +1,7 @@
 //! The outline of a wall between rim and foot, on the plane Z = 0.
 
 use super::arcs::Arc;
-use super::height::says;
-use super::raster::{Chances, Raster};
+use super::raster::{Chances, Odds, Raster, Sector};
 
 /// Levels between rim and foot.
 const LEVELS: usize = 8;
@@ -10,20 +9,44 @@ const LEVELS: usize = 8;
 const CLEAR_PX: f64 = 4.0;
 /// A foot shows an edge at this share of its places, a wall (seldom as round as assumed) at this share of its.
 const SHOWS: (f64, f64) = (0.85, 0.5);
+/// Scaled pixels between the places that are looked at.
+const STEP_PX: f64 = 3.0;
 /// Directions of the outline that are tried, at least, in half a turn.
 const DIRECTIONS: f64 = 24.0;
 
-/// A wall: the outline is that of the discs at all its levels.
-pub(super) struct Outline<'a> {
-    pub rim: &'a Arc,
+/// A wall: its outline is that of the discs at all its levels.
+pub(super) struct Wall {
     pub height_mm: f64,
-    pub camera_mm: f64,
     /// Radius of the foot over that of the rim.
     pub foot: f64,
     /// How round it is: 0 a cone, 1 a quarter of an ellipse.
     pub round: f64,
+}
+
+/// Where the walls of a rim are looked for.
+pub(super) struct Walls<'a> {
+    rim: &'a Arc,
+    raster: &'a Raster,
+    /// What places of the foot say, and what those of the wall do.
+    foot: Odds,
+    wall: Odds,
+    camera_mm: f64,
     /// Distance of the places that are looked at, in mm.
-    pub step: f64,
+    step: f64,
+    /// Distance from the rim's centre, in mm, up to which edges are the rim's.
+    clear_mm: f64,
+    /// Unit vectors towards the point under the camera, and at a right angle to it.
+    toward: [f64; 2],
+    aside: [f64; 2],
+    /// Directions of the outline in half a turn.
+    directions: Vec<Direction>,
+}
+
+/// A direction of the outline by its angle from the point under the camera, and normals to either side.
+struct Direction {
+    cos: f64,
+    sin: f64,
+    normals: [Sector; 2],
 }
 
 /// A level as it appears: how far its centre is moved from the rim's, towards the point under the camera, and its radius.
@@ -33,71 +56,118 @@ struct Level {
     radius: f64,
 }
 
-impl Outline<'_> {
-    fn levels(&self) -> [Level; LEVELS] {
-        let away = self.rim.disc.x.hypot(self.rim.disc.y);
+/// A place of the outline from the rim's centre, in mm: towards the point under the camera, and aside.
+#[derive(Clone, Copy)]
+struct Place {
+    along: f64,
+    across: f64,
+}
+
+impl Wall {
+    fn levels(&self, rim: &Arc, camera_mm: f64) -> [Level; LEVELS] {
+        let away = rim.disc.x.hypot(rim.disc.y);
         std::array::from_fn(|level| {
             #[expect(clippy::cast_precision_loss, reason = "a few levels")]
             let share = level as f64 / (LEVELS - 1) as f64;
             let reach = (1.0 - self.round) * share + self.round * (1.0 - (1.0 - share).powi(2)).sqrt();
-            let t = (self.camera_mm - self.height_mm) / (self.camera_mm - share * self.height_mm);
-            Level {
-                moved: away * (1.0 - t),
-                radius: (self.foot + (1.0 - self.foot) * reach) * self.rim.disc.radius * t,
-            }
+            let t = (camera_mm - self.height_mm) / (camera_mm - share * self.height_mm);
+            Level { moved: away * (1.0 - t), radius: (self.foot + (1.0 - self.foot) * reach) * rim.disc.radius * t }
         })
-    }
-
-    /// What its edges say: logarithm of how much likelier they are with this wall than without. `scale`: mm per scaled pixel.
-    pub(super) fn seen(&self, raster: &Raster, chances: &Chances, scale: f64) -> f64 {
-        let rim = &self.rim.disc;
-        let levels = self.levels();
-        let heading = (-rim.y).atan2(-rim.x);
-        let (toward, aside) = ([heading.cos(), heading.sin()], [-heading.sin(), heading.cos()]);
-        let mut sum = 0.0;
-        let mut look = |along: f64, across: f64, angle: f64, shows: f64| {
-            // On the rim itself, edges are the rim's.
-            if along.hypot(across) - rim.radius > CLEAR_PX * scale {
-                let at = [0, 1].map(|i| [rim.x, rim.y][i] + along * toward[i] + across * aside[i]);
-                let normal = heading + angle;
-                sum += says(raster.has_edge(at, normal), shows, chances.of(normal));
-            }
-        };
-        let turn = (self.step / rim.radius).min(std::f64::consts::FRAC_PI_2 / DIRECTIONS);
-        for side in [-1.0, 1.0] {
-            let (mut angle, mut last): (f64, Option<(usize, f64, f64)>) = (0.0, None);
-            while angle < std::f64::consts::PI {
-                let outer = outermost(&levels, angle);
-                let level = levels[outer];
-                let (along, across) = (level.moved + level.radius * angle.cos(), side * level.radius * angle.sin());
-                if let Some((from, x, y)) = last
-                    && from != outer
-                {
-                    // The line around two levels.
-                    let length = (along - x).hypot(across - y);
-                    let mut done = self.step;
-                    while done < length {
-                        let share = done / length;
-                        look(x + (along - x) * share, y + (across - y) * share, side * angle, SHOWS.1);
-                        done += self.step;
-                    }
-                }
-                if outer == LEVELS - 1 {
-                    break; // from here on it is the rim
-                }
-                if angle > 0.0 || side > 0.0 {
-                    look(along, across, side * angle, if outer == 0 { SHOWS.0 } else { SHOWS.1 });
-                }
-                last = Some((outer, along, across));
-                angle += turn;
-            }
-        }
-        sum
     }
 }
 
-/// The level that reaches furthest in a direction, by its angle from the point under the camera.
-fn outermost(levels: &[Level; LEVELS], angle: f64) -> usize {
-    let reach = |level: usize| levels[level].moved * angle.cos() + levels[level].radius;
-    (1..LEVELS).fold(0, |outer, level| if reach(level) > reach(outer) { level } else { outer })
+impl<'a> Walls<'a> {
+    /// `chances`: of edges that mean nothing. `scale`: mm per scaled pixel.
+    pub(super) fn new(rim: &'a Arc, raster: &'a Raster, chances: &Chances, scale: f64, camera_mm: f64) -> Self {
+        let heading = (-rim.disc.y).atan2(-rim.disc.x);
+        let step = STEP_PX * scale;
+        let turn = (step / rim.disc.radius).min(std::f64::consts::FRAC_PI_2 / DIRECTIONS);
+        let mut directions = Vec::new();
+        let mut angle = 0.0_f64;
+        while angle < std::f64::consts::PI {
+            let normals = [-1.0, 1.0].map(|side| Sector::of(heading + side * angle));
+            directions.push(Direction { cos: angle.cos(), sin: angle.sin(), normals });
+            angle += turn;
+        }
+        Self {
+            rim,
+            raster,
+            foot: chances.odds(SHOWS.0),
+            wall: chances.odds(SHOWS.1),
+            camera_mm,
+            step,
+            clear_mm: rim.disc.radius + CLEAR_PX * scale,
+            toward: [heading.cos(), heading.sin()],
+            aside: [-heading.sin(), heading.cos()],
+            directions,
+        }
+    }
+
+    /// What a wall's edges say: logarithm of how much likelier they are with it than without.
+    pub(super) fn seen(&self, wall: &Wall) -> f64 {
+        let levels = wall.levels(self.rim, self.camera_mm);
+        let mut sum = 0.0;
+        let mut last: Option<(usize, Place)> = None;
+        for (i, direction) in self.directions.iter().enumerate() {
+            let outer = outermost(&levels, direction.cos);
+            let level = levels[outer];
+            let place =
+                Place { along: level.moved + level.radius * direction.cos, across: level.radius * direction.sin };
+            if let Some((from, before)) = last
+                && from != outer
+            {
+                sum += self.between(before, place, direction);
+            }
+            if outer == LEVELS - 1 {
+                break; // from here on it is the rim
+            }
+            // Towards the point under the camera, both sides are one.
+            let sides = if i > 0 { 0..2 } else { 1..2 };
+            sum += self.look(place, direction, sides, if outer == 0 { &self.foot } else { &self.wall });
+            last = Some((outer, place));
+        }
+        sum
+    }
+
+    /// The same of the line around two levels.
+    fn between(&self, from: Place, to: Place, direction: &Direction) -> f64 {
+        let (along, across) = (to.along - from.along, to.across - from.across);
+        let length = along.hypot(across);
+        let (mut sum, mut done) = (0.0, self.step);
+        while done < length {
+            let share = done / length;
+            let place = Place { along: from.along + along * share, across: from.across + across * share };
+            sum += self.look(place, direction, 0..2, &self.wall);
+            done += self.step;
+        }
+        sum
+    }
+
+    /// The same of one place, on both sides or one.
+    fn look(&self, place: Place, direction: &Direction, sides: std::ops::Range<usize>, odds: &Odds) -> f64 {
+        let Place { along, across } = place;
+        // On the rim itself, edges are the rim's.
+        if along * along + across * across <= self.clear_mm * self.clear_mm {
+            return 0.0;
+        }
+        let center = [self.rim.disc.x, self.rim.disc.y];
+        let says = |side: usize| {
+            let across = if side == 0 { -across } else { across };
+            let at = [0, 1].map(|i| center[i] + along * self.toward[i] + across * self.aside[i]);
+            self.raster.says(at, direction.normals[side], odds)
+        };
+        sides.map(says).sum()
+    }
+}
+
+/// The level that reaches furthest in a direction, by the cosine of its angle from the point under the camera.
+fn outermost(levels: &[Level; LEVELS], cos: f64) -> usize {
+    let (mut outer, mut most) = (0, f64::NEG_INFINITY);
+    for (i, level) in levels.iter().enumerate() {
+        let reach = level.moved * cos + level.radius;
+        if reach > most {
+            (outer, most) = (i, reach);
+        }
+    }
+    outer
 }
