@@ -254,7 +254,10 @@ fn a_rim_is_found_without_marks() {
     let rows: Vec<Value> = serde_json::from_str(&stdout(&found(&["--kind=plate", "--json"]))).unwrap();
     let plate = rows.iter().find(|row| row["method"] == "ray").unwrap();
     let (size_mm, sigma_mm) = (plate["predicted_mm"].as_f64().unwrap(), plate["sigma_mm"].as_f64().unwrap());
-    assert!((185.0..198.0).contains(&size_mm) && (size_mm - 200.0).abs() < 3.0 * sigma_mm, "{size_mm} +- {sigma_mm} mm");
+    assert!(
+        (185.0..198.0).contains(&size_mm) && (size_mm - 200.0).abs() < 3.0 * sigma_mm,
+        "{size_mm} +- {sigma_mm} mm"
+    );
 
     // A bowl of unknown height is smaller, for its rim is nearer, and less certain.
     let rows: Vec<Value> = serde_json::from_str(&stdout(&found(&["--kind=bowl", "--json"]))).unwrap();
