@@ -28,7 +28,7 @@ const NEIGHBOUR_RATIO: f64 = 1.12;
 const LEAST_RADIUS_PX: f32 = 5.0;
 /// Peaks kept per layer, and of all layers.
 const PEAKS: usize = 20;
-const MOST: usize = 320;
+const MOST: usize = 160;
 /// A peak is at least this share of a circle; chance included.
 const LEAST_SHARE: f32 = 0.2;
 /// Cells of a layer; a layer that would have more is not searched.
