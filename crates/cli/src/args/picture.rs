@@ -43,7 +43,8 @@ pub struct MeasureArgs {
     /// Where the camera is
     #[command(flatten)]
     pub pose: PoseArgs,
-    /// What it is: plate (on the table), bowl or box (with a height); with --auto, default: as it looks
+    /// What it is: plate (on the table; with --auto at the height that its rim seems to have), bowl or box (with a height);
+    /// with --auto, default: as it looks
     #[arg(long, required_unless_present = "auto")]
     pub kind: Option<Kind>,
     /// Its outline; default: circle for plates and bowls, rectangle for boxes

@@ -1,29 +1,22 @@
 //! Pictures for the page of a report, from the work folder of the run that gave the results.
 
-use std::path::Path;
-
-use model::{GallerySink, SessionStatus};
-use pipeline::{GalleryError, GalleryHalted, GalleryOptions, NotShown, Reporter, Stop};
+use model::GallerySink;
+use pipeline::{GalleryError, GalleryHalted, GalleryOptions, NotShown, Reporter};
 
 use super::tell;
 use crate::exit::Failure;
 
-/// Decoded pictures in memory at once.
-const MEMORY_BYTES: u64 = 256 << 20;
 /// More of them are counted, not listed.
 const LISTED: usize = 5;
 
-/// Hands all pictures of these sessions to `sink`. Gives whether some could not be shown; where there is no work folder the
+/// Hands all pictures of the sessions to `sink`. Gives whether some could not be shown; where there is no work folder the
 /// report does without, and says so.
 pub fn gallery_into<S: GallerySink>(
-    work_dir: &Path,
-    sessions: &[SessionStatus],
-    stop: Stop,
+    options: &GalleryOptions<'_>,
     progress: &dyn Reporter,
     sink: &mut S,
 ) -> Result<bool, Failure> {
-    let options = GalleryOptions { work_dir, sessions, jobs: None, image_memory_bytes: MEMORY_BYTES, stop };
-    match pipeline::gallery(&options, progress, sink) {
+    match pipeline::gallery(options, progress, sink) {
         Ok(made) => {
             tell(&not_shown(&made.not_shown));
             Ok(!made.not_shown.is_empty())

@@ -1,11 +1,12 @@
 //! The folder of a report: tables, figures, pictures, and the page that shows them.
 
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use ::report::{
     Page, Pictures, Results, figures, frames_file, read_frames, read_run_log, run_file, write_figures, write_report,
 };
-use pipeline::Stop;
+use pipeline::{GalleryOptions, Stop};
 
 use super::gallery::gallery_into;
 use crate::exit::Failure;
@@ -17,6 +18,10 @@ pub struct Source<'a> {
     pub out: &'a Path,
     /// The work folder of their run, whose recordings hold the pictures.
     pub work_dir: &'a Path,
+    /// Pictures at a time; none for the cores that this process may use.
+    pub jobs: Option<NonZeroUsize>,
+    /// Bound of the decoded pictures in memory at once.
+    pub image_memory_bytes: u64,
     pub stop: Stop,
 }
 
@@ -36,7 +41,14 @@ pub fn write(results: &Results, source: Source<'_>, dir: &Path, bars: &Bars) -> 
     write_figures(&figures, dir)?;
     let mut pictures = Pictures::new(dir);
     let progress = bars.for_run();
-    let lost = gallery_into(source.work_dir, &results.metadata.sessions, source.stop, &progress, &mut pictures)?;
+    let options = GalleryOptions {
+        work_dir: source.work_dir,
+        sessions: &results.metadata.sessions,
+        jobs: source.jobs,
+        image_memory_bytes: source.image_memory_bytes,
+        stop: source.stop,
+    };
+    let lost = gallery_into(&options, &progress, &mut pictures)?;
     drop(progress);
     let page = Page { results, log: log.as_ref(), figures: &figures, pictures: &pictures };
     Ok(Written { page: write_report(&page, dir)?, lost })

@@ -9,6 +9,9 @@ use crate::args::ReportArgs;
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
+/// Decoded pictures in memory at once: what `run --memory` is by default.
+const PICTURE_MEMORY_BYTES: u64 = 256 << 20;
+
 /// Prints the tables, and writes the report when a folder is given.
 pub fn run(args: &ReportArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let mut results = Results::read(&args.results)?;
@@ -16,7 +19,14 @@ pub fn run(args: &ReportArgs, bars: &Bars) -> Result<Outcome, Failure> {
     print(&tables_text(&results))?;
     if let Some(dir) = &args.out {
         let work_dir = args.work.clone().unwrap_or_else(|| args.results.with_extension("work"));
-        let source = page::Source { out: &args.results, work_dir: &work_dir, stop: stop_on_signals()? };
+        let stop = stop_on_signals()?;
+        let source = page::Source {
+            out: &args.results,
+            work_dir: &work_dir,
+            jobs: None,
+            image_memory_bytes: PICTURE_MEMORY_BYTES,
+            stop,
+        };
         let written = page::write(&results, source, dir, bars)?;
         lost |= written.lost;
         tell(&format!("wrote {}\n", written.page.display()));

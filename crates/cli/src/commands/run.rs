@@ -44,7 +44,13 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     let mut results = Results::read(out)?;
     results.read_flow(&frames)?;
     print(&tables_text(&results))?;
-    let source = || page::Source { out, work_dir: &options.work_dir, stop: options.stop.clone() };
+    let source = || page::Source {
+        out,
+        work_dir: &options.work_dir,
+        jobs: options.jobs,
+        image_memory_bytes: options.image_memory_bytes,
+        stop: options.stop.clone(),
+    };
     let report = args.report.as_ref().map(|dir| page::write(&results, source(), dir, bars)).transpose()?;
     let (page, shown) = report.map_or((None, true), |report| (Some(report.page), !report.lost));
     let files = [out.clone(), frames, ::report::run_file(out)];
