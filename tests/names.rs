@@ -3,7 +3,7 @@
 use model::{Level, Problem, Quantity, Severity};
 
 use crate::auto::{Ran, by_ray, damage, run, study};
-use crate::support::{StudyFolder, stderr};
+use crate::support::{StudyFolder, aim_batch, assert_exit, stderr};
 
 const AUTO: [&str; 2] = ["--marks", "auto"];
 const HEADER: &str = "session,found,object\n";
@@ -38,8 +38,8 @@ fn a_named_container_has_errors_and_what_is_known_of_its_object() {
     assert_eq!(others(&rows), others(&found), "names are those of one session");
 
     let report = study.path().join("report");
-    let status = crate::support::aim_batch().arg("report").arg(&ran.out).arg("-o").arg(&report).status().unwrap();
-    assert!(status.success());
+    let output = aim_batch().arg("report").arg(&ran.out).arg("-o").arg(&report).output().unwrap();
+    assert_exit(&output, 0);
     let table = std::fs::read_to_string(report.join("error_by_pitch.csv")).unwrap();
     assert!(table.lines().count() > 1, "{table}");
 }

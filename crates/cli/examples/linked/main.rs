@@ -65,7 +65,7 @@ fn compare(study: &Path, results: &Path, marks: &Path, sums: &mut Sums) -> anyho
             sums.name(of.len());
         }
         for object in truth.containers(session) {
-            container(session, &object, &sightings, &rows, sums);
+            container(session, object, &sightings, &rows, sums);
         }
     }
     Ok(())

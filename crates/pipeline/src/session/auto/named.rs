@@ -36,3 +36,60 @@ pub(super) fn named(seen: Vec<Seen>, taken: &BTreeSet<u32>, least_diameter_mm: f
     }
     by_image
 }
+
+#[cfg(test)]
+mod tests {
+    use model::{Kind, UtcNs};
+
+    use super::*;
+    use crate::rims::{HeightSource, RimHeight};
+    use crate::session::auto::looks::Looks;
+
+    const LEAST_MM: f64 = 90.0;
+
+    /// A rim of a bowl 60 mm high, seen from 400 mm.
+    fn seen(image: u32, across_mm: f64, plate_log_odds: f64, bowl_mm: f64) -> Seen {
+        let height = |mm: f64| RimHeight { mm, sigma_mm: 10.0, source: HeightSource::Foot };
+        let (plate, bowl) = (height(20.0), height(bowl_mm));
+        let kind = if plate_log_odds > 0.0 { Kind::Plate } else { Kind::Bowl };
+        let found = Found { kind, confidence: 0.9, perimeter_px: 500.0, height: bowl, plate_height: Some(plate) };
+        let sighting = Sighting {
+            image: image as usize,
+            time: UtcNs(i64::from(image) * 1_000_000_000_000),
+            across_mm,
+            relative_sigma: 0.03,
+            camera_mm: 400.0,
+            at_mm: [0.0, 300.0],
+            looks: Looks { plate, bowl, plate_log_odds },
+        };
+        let rim = AutoRim { object: String::new(), points_px: Vec::new(), found };
+        Seen { image: format!("{image}.jpg"), rim, sighting }
+    }
+
+    #[test]
+    fn all_images_of_a_container_have_its_kind_and_height() {
+        let images = vec![seen(0, 200.0, -6.0, 50.0), seen(1, 201.0, 4.0, 70.0), seen(2, 199.0, -3.0, 60.0)];
+        let by_image = named(images, &BTreeSet::new(), LEAST_MM);
+        let rims: Vec<&AutoRim> = by_image.values().flatten().collect();
+        assert_eq!(rims.len(), 3);
+        for rim in rims {
+            assert_eq!((rim.object.as_str(), rim.found.kind), ("auto-1", Kind::Bowl));
+            assert!((rim.found.height.mm - 60.0).abs() < 1e-9 && rim.found.height.sigma_mm < 10.0, "{:?}", rim.found);
+        }
+    }
+
+    #[test]
+    fn numbers_are_of_what_is_kept_and_free() {
+        let images = vec![seen(0, 80.0, -6.0, 60.0), seen(0, 150.0, -6.0, 60.0), seen(1, 250.0, 6.0, 60.0)];
+        let by_image = named(images, &BTreeSet::from([1, 3]), LEAST_MM);
+        let names = |image: &str| by_image[image].iter().map(|rim| rim.object.as_str()).collect::<Vec<_>>();
+        assert_eq!((names("0.jpg"), names("1.jpg")), (vec!["auto-2"], vec!["auto-4"]), "a cup has no name");
+    }
+
+    /// Whether it is a cup is asked of the container: in one image alone it would be wide enough.
+    #[test]
+    fn a_container_is_narrow_in_all_of_its_images_or_in_none() {
+        let cup = vec![seen(0, 109.0, -6.0, 60.0), seen(1, 103.0, -6.0, 60.0), seen(2, 102.0, -6.0, 60.0)];
+        assert!(named(cup, &BTreeSet::new(), LEAST_MM).is_empty());
+    }
+}
