@@ -112,7 +112,7 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
     if picture.rgb.len() != expected {
         return Err(RimError::Bytes { found: picture.rgb.len(), expected });
     }
-    let scaled = Scaled::of(picture);
+    let scaled = Scaled::of(picture, view.camera().focal_px()[0]);
     let buckets = Buckets::new(&ground::ground_edges(view, &scaled));
     let found = search::rims(view, &buckets);
     let mut rims: Vec<Rim> =
