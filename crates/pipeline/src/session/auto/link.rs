@@ -16,7 +16,10 @@ pub(super) struct Sighting {
     pub image: usize,
     pub time: UtcNs,
     pub kind: Kind,
+    /// Diameter, or length of a rectangle.
     pub diameter_mm: f64,
+    /// Width of a rectangle; none of a round one.
+    pub width_mm: Option<f64>,
     /// Its standard uncertainty against other images of the session: without most of what all of them share.
     pub sigma_mm: f64,
     /// Its centre: world X, Y, from the point of the table under the camera.
@@ -109,6 +112,14 @@ fn cost(sighting: &Sighting, track: &Track) -> Option<f64> {
     if sighting.kind != track.surest.kind || size.is_nan() || size.abs() > SAME_SIZE {
         return None;
     }
+    let is_as_wide = match (sighting.width_mm, track.surest.width_mm) {
+        (None, None) => true,
+        (Some(one), Some(other)) => (one - other).abs() <= SAME_SIZE * sigma_mm,
+        (None, Some(_)) | (Some(_), None) => false,
+    };
+    if !is_as_wide {
+        return None;
+    }
     let [a, b] = [sighting.at_mm, track.last.at_mm];
     let apart_s = sighting.time.seconds_since(track.last.time).abs();
     let place = if apart_s > NEAR_S {
@@ -132,6 +143,7 @@ mod tests {
             time,
             kind: Kind::Bowl,
             diameter_mm,
+            width_mm: None,
             sigma_mm: 0.03 * diameter_mm,
             at_mm,
         }
@@ -158,6 +170,13 @@ mod tests {
     fn other_sizes_and_kinds_are_others() {
         let plate = Sighting { kind: Kind::Plate, ..bowl(10, 150.0, [0.0, 300.0]) };
         assert_eq!(named(&[bowl(0, 150.0, [0.0, 300.0]), plate, bowl(20, 190.0, [0.0, 300.0])]), [1, 2, 3]);
+    }
+
+    #[test]
+    fn rectangles_are_told_apart_by_both_sides_and_from_what_is_round() {
+        let plate = |at_s, width_mm| Sighting { width_mm, ..bowl(at_s, 200.0, [0.0, 300.0]) };
+        let seen = [plate(0, Some(150.0)), plate(10, Some(152.0)), plate(20, Some(190.0)), plate(30, None)];
+        assert_eq!(named(&seen), [1, 1, 2, 3]);
     }
 
     #[test]

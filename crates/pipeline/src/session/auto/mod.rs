@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use ingest::{ByteBudget, Picture, SessionReader};
-use model::{Camera, Container, FrameReason, Method, Problem, Quantity, Severity, Shape, SizeSigma, Stage, View};
+use model::{Camera, Container, FrameReason, Method, Problem, Quantity, Severity, SizeSigma, Stage, View};
 use nalgebra::Point2;
 
 use super::measurement::inputs_of;
@@ -14,7 +14,7 @@ use super::recording::bad_mcap;
 use super::{Frame, Prepared, Recording, stem_of};
 use crate::calibrate::corrected_view;
 use crate::labelme::{self, AutoRim};
-use crate::rims::{self, Found, Rim, find_rims};
+use crate::rims::{self, Found, Rim, find_rims_of};
 use crate::stop::Stop;
 use crate::study::{SessionDir, Study, marks_in};
 use link::{Sighting, names};
@@ -116,7 +116,7 @@ impl Search<'_> {
             return Ok(Vec::new());
         };
         let picture = Picture::decode(bytes).map_err(|error| error.to_string())?;
-        let rims = find_rims(&picture, &view).map_err(|error| error.to_string())?;
+        let rims = find_rims_of(&picture, &view, &self.study.spec.marks.shapes).map_err(|error| error.to_string())?;
         let sure = rims.iter().filter(|rim| rim.confidence >= self.study.spec.marks.min_confidence);
         Ok(sure.filter_map(|rim| self.seen(number, frame, &view, rim)).collect())
     }
@@ -131,8 +131,15 @@ impl Search<'_> {
         let auto = AutoRim { object: String::new(), points_px, found };
         let container = container_of(&found);
         let sizes = rim.sizes(view, Method::Ray, &container, &inputs_of(self.study, frame));
-        let diameter = sizes.into_iter().find(|(quantity, _)| *quantity == Quantity::Diameter)?.1.ok()?;
-        if diameter.measured.predicted_mm < self.study.spec.marks.min_diameter_mm {
+        let size = |wanted: Quantity| {
+            let (_, size) = sizes.iter().find(|(quantity, _)| *quantity == wanted)?;
+            size.as_ref().ok()
+        };
+        // A rectangle is as narrow as its width, and is linked by both sides.
+        let width = size(Quantity::Width);
+        let diameter = size(Quantity::Diameter).or_else(|| size(Quantity::Length))?;
+        let narrowest_mm = width.unwrap_or(diameter).measured.predicted_mm;
+        if narrowest_mm < self.study.spec.marks.min_diameter_mm {
             return None;
         }
         let lower = 1.0 - rim.height_as(&container).mm / view.pose().camera_height_mm();
@@ -141,6 +148,7 @@ impl Search<'_> {
             time: frame.image.time,
             kind: rim.kind,
             diameter_mm: diameter.measured.predicted_mm,
+            width_mm: width.map(|width| width.measured.predicted_mm),
             sigma_mm: sigma_within_session_mm(&diameter.sigma),
             at_mm: rim.on_table_mm.0.map(|c| c * lower),
         };
@@ -175,7 +183,7 @@ const BYTES_PER_PIXEL: u64 = 4;
 
 /// What is known of a container that is in no list: what it looks like.
 pub(super) fn container_of(found: &Found) -> Container {
-    Container { kind: found.kind, shape: Shape::Circle, rim_height_mm: None, wall: None }
+    Container { kind: found.kind, shape: found.shape, rim_height_mm: None, wall: None }
 }
 
 /// Where a point of the recorded picture is in the pictures that people mark, to a thousandth of a pixel: far below what an
