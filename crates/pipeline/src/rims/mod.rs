@@ -127,7 +127,7 @@ pub fn find_rims_of(picture: &Picture, view: &View, shapes: &[RimShape]) -> Resu
     if picture.rgb.len() != expected {
         return Err(RimError::Bytes { found: picture.rgb.len(), expected });
     }
-    let scaled = Scaled::of(picture);
+    let scaled = Scaled::of(picture, view.camera().focal_px()[0]);
     let edges = ground::ground_edges(view, &scaled);
     let mut rims = Vec::new();
     if shapes.contains(&RimShape::Circle) {

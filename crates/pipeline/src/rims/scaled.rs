@@ -5,6 +5,8 @@ use ingest::Picture;
 /// The search looks at pictures whose longer side has about as many pixels: a rim of a third of the picture is then some
 /// 500 pixels long, and noise and fine texture are averaged away.
 const SEARCH_SIDE_PX: u32 = 560;
+/// ... but of whose centre a radian has no fewer: in the picture of a wide lens a plate is small.
+const SEARCH_FOCAL_PX: f64 = 300.0;
 
 /// Three planes of brightness (0-255), each pixel the mean of `factor` x `factor` pixels of the picture.
 pub(super) struct Scaled {
@@ -16,9 +18,9 @@ pub(super) struct Scaled {
 }
 
 impl Scaled {
-    pub(super) fn of(picture: &Picture) -> Self {
-        let longer = picture.width_px.max(picture.height_px);
-        let factor = ((longer + SEARCH_SIDE_PX / 2) / SEARCH_SIDE_PX).max(1) as usize;
+    /// `focal_px` is the camera's, in pixels of the picture.
+    pub(super) fn of(picture: &Picture, focal_px: f64) -> Self {
+        let factor = factor(picture.width_px.max(picture.height_px), focal_px);
         let full_width = picture.width_px as usize;
         let (width, height) = (full_width / factor, picture.height_px as usize / factor);
         let mut planes = [(); 3].map(|()| Vec::with_capacity(width * height));
@@ -53,5 +55,27 @@ impl Scaled {
     #[expect(clippy::cast_precision_loss, reason = "a small factor")]
     pub(super) fn in_full(&self, place: f64) -> f64 {
         (place + 0.5) * self.factor as f64 - 0.5
+    }
+}
+
+/// As many pixels of the picture, each way, make one of the search.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
+fn factor(longer_px: u32, focal_px: f64) -> usize {
+    let by_side = (longer_px + SEARCH_SIDE_PX / 2) / SEARCH_SIDE_PX;
+    let by_focal = (focal_px / SEARCH_FOCAL_PX) as u32;
+    by_side.min(by_focal).max(1) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::factor;
+
+    #[test]
+    fn a_wide_lens_is_searched_at_a_finer_scale() {
+        // AIM-2; a webcam; a phone; cameras of glasses with 98 and 120 degrees.
+        let cases = [(2592, 1700.0, 5), (640, 600.0, 1), (4032, 3000.0, 7), (1408, 610.0, 2), (1000, 433.0, 1)];
+        for (longer_px, focal_px, expected) in cases {
+            assert_eq!(factor(longer_px, focal_px), expected, "{longer_px} px, {focal_px} px");
+        }
     }
 }
