@@ -221,7 +221,11 @@ mod tests {
             marks: vec![Mark::Outline { feature: Feature::Rim, points_px: points_px.clone() }],
         };
         let mut picture = Picture { width_px: 320, height_px: 240, rgb: vec![7; 3 * 320 * 240] };
-        draw(&mut picture, &view, &[Drawn { marks, shape: Shape::Circle, plane_z_mm: 0.0, text: vec!["o 1.0".to_owned()] }]);
+        draw(
+            &mut picture,
+            &view,
+            &[Drawn { marks, shape: Shape::Circle, plane_z_mm: 0.0, text: vec!["o 1.0".to_owned()] }],
+        );
         let colour = |place: Point2<f64>| {
             let at = pixel(place);
             let start = 3 * (at.y as usize * 320 + at.x as usize);

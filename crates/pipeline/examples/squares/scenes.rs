@@ -86,7 +86,11 @@ fn plate(text: &mut String, lot: &mut Lot, [x, y]: [f64; 2]) {
             "[[napkins]]\nat_mm = [{x:.1}, {y:.1}]\nsize_mm = [{w:.1}, {h:.1}]\nturn_deg = {turn:.1}\ncolour = {colour}"
         );
     }
-    let sides = if is_square { format!("width_mm = {wide:.1}") } else { format!("width_mm = {wide:.1}\nlength_mm = {long:.1}") };
+    let sides = if is_square {
+        format!("width_mm = {wide:.1}")
+    } else {
+        format!("width_mm = {wide:.1}\nlength_mm = {long:.1}")
+    };
     let outer = if is_square { wide } else { long };
     let flange = wide * lot.between(0.09, 0.2);
     let (well, height) = (outer - 2.0 * flange, lot.between(13.0, 34.0));
@@ -122,7 +126,10 @@ fn other(text: &mut String, lot: &mut Lot, [x, y]: [f64; 2]) {
     }
     let diameter = lot.between(110.0, 280.0);
     if (0.4..0.8).contains(&kind) {
-        let _ = writeln!(text, "[[plates]]\nname = \"round\"\nat_mm = [{x:.1}, {y:.1}]\ndiameter_mm = {diameter:.1}\nfood_pct = 30");
+        let _ = writeln!(
+            text,
+            "[[plates]]\nname = \"round\"\nat_mm = [{x:.1}, {y:.1}]\ndiameter_mm = {diameter:.1}\nfood_pct = 30"
+        );
     } else if kind >= 0.8 {
         let (wide, high) = (lot.between(80.0, 160.0), lot.between(25.0, 90.0));
         let long = wide * lot.between(1.0, 1.8);
@@ -138,11 +145,16 @@ fn other(text: &mut String, lot: &mut Lot, [x, y]: [f64; 2]) {
 /// Cutlery, a glass, a napkin, a telephone, a hand: each now and then.
 fn beside(text: &mut String, lot: &mut Lot, [x, y]: [f64; 2]) {
     let side = if lot.is(0.5) { 1.0 } else { -1.0 };
-    let mut at = |out: f64, lot: &mut Lot| [x + side * (out + lot.between(0.0, 60.0)), y + lot.between(-100.0, 80.0)];
+    let at = |out: f64, lot: &mut Lot| [x + side * (out + lot.between(0.0, 60.0)), y + lot.between(-100.0, 80.0)];
     for kind in ["fork", "knife"] {
         let [u, v] = at(165.0, lot);
         if lot.is(0.5) {
-            let _ = writeln!(text, "[[cutlery]]\nkind = \"{kind}\"\nat_mm = [{u:.1}, {:.1}]\nturn_deg = {:.1}", v - 90.0, lot.between(70.0, 110.0));
+            let _ = writeln!(
+                text,
+                "[[cutlery]]\nkind = \"{kind}\"\nat_mm = [{u:.1}, {:.1}]\nturn_deg = {:.1}",
+                v - 90.0,
+                lot.between(70.0, 110.0)
+            );
         }
     }
     let [u, v] = at(200.0, lot);

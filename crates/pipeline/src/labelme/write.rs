@@ -99,7 +99,14 @@ mod tests {
         let height = RimHeight { mm: 61.234_567_890_123_4, sigma_mm: 0.1 + 0.2, source: HeightSource::Foot };
         let points_px = (0..40).map(|i| [300.123 + f64::from(i).sin() / 3.0, 0.1 * f64::from(i)]).collect();
         let plate_height = Some(RimHeight { mm: 12.3, ..height });
-        let found = Found { kind: Kind::Bowl, shape: Shape::Circle, confidence: 1.0 / 3.0, perimeter_px: 512.7, height, plate_height };
+        let found = Found {
+            kind: Kind::Bowl,
+            shape: Shape::Circle,
+            confidence: 1.0 / 3.0,
+            perimeter_px: 512.7,
+            height,
+            plate_height,
+        };
         AutoRim { object: "auto-2".to_owned(), points_px, found }
     }
 

@@ -26,8 +26,8 @@ mod refine;
 mod scaled;
 mod search;
 mod select;
-mod significance;
 mod shapes;
+mod significance;
 mod sizes;
 mod squares;
 #[cfg(test)]

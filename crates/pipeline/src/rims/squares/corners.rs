@@ -134,7 +134,8 @@ fn beside(corner: &Corner, k: usize, pieces: &[Piece]) -> Vec<Beside> {
         let ends = piece.ends.map(|end| own.dot(&(end - corner.at)));
         let away = along.dot(&(nalgebra::center(&piece.ends[0], &piece.ends[1]) - corner.at));
         let span = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-        let is_within = away > -ONE_SIDE_MM && away < SIDES_MM[1] && span[1] > -BEYOND_CORNER_MM[1] && span[0] < SIDES_MM[1];
+        let is_within =
+            away > -ONE_SIDE_MM && away < SIDES_MM[1] && span[1] > -BEYOND_CORNER_MM[1] && span[0] < SIDES_MM[1];
         is_within.then_some(Beside { away, span, share: piece.covered / piece.length })
     });
     placed.collect()

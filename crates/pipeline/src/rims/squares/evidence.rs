@@ -14,9 +14,8 @@ const INDEPENDENT_PX: f64 = 6.0;
 pub const SQUARE_FEATURES: usize = 15;
 /// Weights of [`SquareEvidence::features`] in the logarithm of the odds that a rectangle is a rim: a logistic regression on
 /// rendered tables (docs/rims.md has the command).
-const CONFIDENCE: [f64; SQUARE_FEATURES] = [
-    -3.95, 2.16, -0.63, -4.46, -13.31, 1.06, 4.13, 0.52, 4.65, -10.39, -3.00, -0.33, -1.18, 1.07, 0.82,
-];
+const CONFIDENCE: [f64; SQUARE_FEATURES] =
+    [-4.86, 3.09, -2.29, -3.44, -9.14, 1.24, 6.85, 1.01, 2.96, -19.67, -2.74, 0.75, -3.05, 1.12, 1.89];
 
 /// Sharpness, roughness and unlikeness before the full picture tells them: what is common.
 const UNSEEN: (f64, f64, f64) = (0.72, 6.0, 0.1);

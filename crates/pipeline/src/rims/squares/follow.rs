@@ -5,7 +5,7 @@ use model::View;
 use nalgebra::{Point2, Point3, Vector2};
 
 use super::super::refine::colour;
-use super::quad::{Quad, Side};
+use super::quad::{Quad, Side, Straight};
 
 /// Pixels between places where a side is looked for, and how many there are at least and at most.
 const SPACING_PX: f64 = 4.0;
@@ -85,7 +85,7 @@ pub(super) fn follow(picture: &Picture, view: &View, quad: &Quad, factor: f64) -
 
 /// A side's line, and how sharp the edges along it are.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "places")]
-fn line(picture: &Picture, view: &View, side: &Side, factor: f64) -> Option<((Point2<f64>, Vector2<f64>), Along)> {
+fn line(picture: &Picture, view: &View, side: &Side, factor: f64) -> Option<(Straight, Along)> {
     let pixel = |p: Point2<f64>| view.pixel_of(Point3::new(p.x, p.y, 0.0)).ok();
     let at = |share: f64| side.from + side.along * (share * side.length);
     let length_px = (pixel(at(1.0))? - pixel(at(0.0))?).norm();

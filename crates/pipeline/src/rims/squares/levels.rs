@@ -79,9 +79,8 @@ fn nested(sides: &[Side; 4], lines: &[Lines; 4], drop: f64) -> Nested {
         let away = f64::from(flange) + drop * distance(&sides[k]);
         if away < OWN_MM { 0.0 } else { lines[k].share(away) }
     };
-    let pair = |k: usize| -> Vec<[f64; 2]> {
-        flanges(sides, k).map(|flange| [at(k, flange), at(k + 2, flange)]).collect()
-    };
+    let pair =
+        |k: usize| -> Vec<[f64; 2]> { flanges(sides, k).map(|flange| [at(k, flange), at(k + 2, flange)]).collect() };
     let pairs = [pair(0), pair(1)];
     let mut best = Nested { mean: 0.0, least: 0.0 };
     for (i, [a, b]) in pairs[0].iter().enumerate() {
@@ -115,8 +114,7 @@ fn alike(place: usize) -> (usize, usize) {
 
 /// Mean share of the sides that have a line, over all places within.
 fn clutter(sides: &[Side; 4], lines: &[Lines; 4]) -> f64 {
-    let all: Vec<f64> =
-        (0..4).flat_map(|k| flanges(sides, k).map(move |mm| lines[k].share(f64::from(mm)))).collect();
+    let all: Vec<f64> = (0..4).flat_map(|k| flanges(sides, k).map(move |mm| lines[k].share(f64::from(mm)))).collect();
     #[expect(clippy::cast_precision_loss, reason = "mm")]
     let count = all.len().max(1) as f64;
     all.iter().sum::<f64>() / count

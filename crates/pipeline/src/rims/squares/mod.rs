@@ -99,7 +99,11 @@ fn scored(edges: &[GroundEdge], quad: &Quad) -> Option<Scored> {
         return None;
     }
     let evidence = SquareEvidence::of(&support, &Levels::of(&quad, &near));
-    (evidence.false_alarms_log10 < MOST_FALSE_ALARMS_LOG10).then_some(Scored { quad, evidence, confidence: evidence.confidence() })
+    (evidence.false_alarms_log10 < MOST_FALSE_ALARMS_LOG10).then_some(Scored {
+        quad,
+        evidence,
+        confidence: evidence.confidence(),
+    })
 }
 
 /// Leaves one of those that are the same after their fit, the likeliest first.

@@ -149,9 +149,7 @@ fn both(a: &Piece, b: &Piece) -> Piece {
         between = -between;
     }
     let spread = w * v / (w + v) * between.norm();
-    let sum = a.along * (w * a.length * a.length / 12.0)
-        + other * (v * b.length * b.length / 12.0)
-        + between * spread;
+    let sum = a.along * (w * a.length * a.length / 12.0) + other * (v * b.length * b.length / 12.0) + between * spread;
     let along = sum.try_normalize(1e-9).unwrap_or(a.along);
     let reach = a.ends.iter().chain(&b.ends).map(|end| along.dot(&(end.coords - middle)));
     let (low, high) = reach.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), t| (l.min(t), h.max(t)));

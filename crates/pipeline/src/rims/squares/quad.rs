@@ -17,6 +17,9 @@ const LEAST_SHARE: f64 = 0.15;
 /// A fit turns a side by no more than this in one step (tangent).
 const MOST_TURN: f64 = 0.03;
 
+/// A point of a line, and its direction.
+pub(super) type Straight = (Point2<f64>, Vector2<f64>);
+
 /// A quadrilateral by its corners, in mm, counter-clockwise as seen from above. Side `k` runs from corner `k` to the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Quad {
@@ -53,8 +56,8 @@ impl Side {
 
 impl Quad {
     /// None where two sides next to each other are parallel.
-    pub(super) fn of_lines(lines: &[(Point2<f64>, Vector2<f64>); 4]) -> Option<Self> {
-        let meet = |a: &(Point2<f64>, Vector2<f64>), b: &(Point2<f64>, Vector2<f64>)| {
+    pub(super) fn of_lines(lines: &[Straight; 4]) -> Option<Self> {
+        let meet = |a: &Straight, b: &Straight| {
             let solved = Matrix2::from_columns(&[a.1, -b.1]).try_inverse()? * (b.0 - a.0);
             Some(a.0 + a.1 * solved.x)
         };
@@ -100,9 +103,8 @@ impl Quad {
 
     /// Largest distance between corners of both.
     pub(super) fn apart(&self, other: &Self) -> f64 {
-        let way = |turn: usize| {
-            (0..4).map(|k| (self.corners[k] - other.corners[(k + turn) % 4]).norm()).fold(0.0, f64::max)
-        };
+        let way =
+            |turn: usize| (0..4).map(|k| (self.corners[k] - other.corners[(k + turn) % 4]).norm()).fold(0.0, f64::max);
         (0..4).map(way).fold(f64::INFINITY, f64::min)
     }
 
@@ -113,7 +115,8 @@ impl Quad {
         let is_beside = |side: &Side, e: &GroundEdge| {
             side.parallel(e).is_some_and(|(_, off, _)| off.abs() < GATHERED.0.max(GATHERED.1 * f64::from(e.scale)))
         };
-        let near: Vec<GroundEdge> = near.iter().filter(|e| sides.iter().any(|side| is_beside(side, e))).copied().collect();
+        let near: Vec<GroundEdge> =
+            near.iter().filter(|e| sides.iter().any(|side| is_beside(side, e))).copied().collect();
         for (mm, px) in PASSES {
             let lines = quad.sides().map(|side| line(&side, &near, mm, px));
             quad = Self::of_lines(&lines)?;
@@ -128,7 +131,7 @@ impl Quad {
 }
 
 /// The line of a side after one step of robust least squares (Tukey's weights).
-fn line(side: &Side, near: &[GroundEdge], mm: f64, px: f64) -> (Point2<f64>, Vector2<f64>) {
+fn line(side: &Side, near: &[GroundEdge], mm: f64, px: f64) -> Straight {
     let inner = CORNER_SHARE * side.length..(1.0 - CORNER_SHARE) * side.length;
     let (mut sums, mut length) = ([0.0; 5], 0.0);
     for e in near {

@@ -144,7 +144,12 @@ fn sums(side: &Side, near: &[GroundEdge]) -> Sums {
             }
             continue;
         }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "bins")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "bins"
+        )]
         let bin = ((t / side.length * BINS as f64) as usize).min(BINS - 1);
         (if is_bright_out { &mut sums.bright_out } else { &mut sums.bright_in })[bin] += length;
         sums.squares += length * (off / scale).powi(2);

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use ingest::Picture;
+use model::lens::Division;
 use model::{Camera, Container, InputSigma, Kind, LensModel, Method, Pose, Quantity, Shape, View};
 use nalgebra::{Point2, Rotation2, Vector2};
 use proptest::prelude::*;
@@ -11,7 +12,7 @@ use super::super::{Rim, RimShape, find_rims_of};
 const SIZE_PX: [u32; 2] = [960, 720];
 
 fn view(pitch_deg: f64, roll_deg: f64, height_mm: f64) -> View {
-    let lens = LensModel::Division { lambda: -0.1 };
+    let lens = LensModel::Division(Division { lambda: -0.1 });
     let camera = Camera::new(SIZE_PX, [640.0, 640.0], [480.0, 360.0], 0.0, lens).unwrap();
     let pitch = pitch_deg.to_radians();
     View::new(camera, Pose::new(pitch, roll_deg.to_radians(), height_mm / pitch.sin()).unwrap())
