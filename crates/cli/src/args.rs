@@ -9,6 +9,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use model::Method;
+use pipeline::rims::RimShape;
 use pipeline::study::MarksSource;
 
 use crate::logging::LogFormat;
@@ -179,6 +180,9 @@ pub struct SettingsArgs {
     /// Who marks: manual (the study's files), auto (rims found in the selected images) or both; default: study.toml's
     #[arg(long, env = "AIM_BATCH_MARKS", value_name = "manual|auto|both")]
     pub marks: Option<MarksSource>,
+    /// Shapes of rims that are looked for (circle, rectangle), separated by commas; default: those of study.toml
+    #[arg(long, env = "AIM_BATCH_SHAPES", value_delimiter = ',')]
+    pub shapes: Vec<RimShape>,
     /// Pitch near which frames are selected, in degrees; default: study.toml's
     #[arg(long, env = "AIM_BATCH_TARGET_PITCH")]
     pub target_pitch: Option<f64>,

@@ -1,4 +1,4 @@
-//! The weights of the confidence of found rims, from files that the example `laid` wrote (docs/rims.md).
+//! The weights of the confidence of found rims, from files that the example `laid` wrote, or `squares` (docs/rims.md).
 //!
 //! ```text
 //! cargo run -p aim-batch-pipeline --example confidence -- FILE.csv ...
@@ -9,12 +9,13 @@
 
 use std::error::Error;
 
-use aim_batch_pipeline::rims::FEATURES;
-use nalgebra::{SMatrix, SVector};
+use aim_batch_pipeline::rims::{FEATURES, SQUARE_FEATURES};
+use nalgebra::{DMatrix, DVector};
 
-type Vector = SVector<f64, FEATURES>;
+type Vector = DVector<f64>;
 
-/// Mean and standard deviation of the weights before any picture is seen, in the order of `Evidence::features`.
+/// Mean and standard deviation of the weights before any picture is seen, in the order of `Evidence::features`; those of
+/// rectangles are only held from running away.
 const PRIOR: [(f64, f64); FEATURES] = [
     (-17.0, 10.0),
     (12.0, 4.0),
@@ -27,6 +28,7 @@ const PRIOR: [(f64, f64); FEATURES] = [
     (0.5, 0.5),
     (1.0, 1.0),
 ];
+const OF_SQUARES: (f64, f64) = (0.0, 5.0);
 const STEPS: usize = 100;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -36,7 +38,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             rims.push(parsed(line).ok_or_else(|| format!("{file}: not a line of the example laid: {line}"))?);
         }
     }
-    let weights = fitted(&rims);
+    let count = rims.first().ok_or("no rims")?.0.len();
+    if rims.iter().any(|(features, _)| features.len() != count) {
+        return Err("round rims and rectangles: each has weights of its own".into());
+    }
+    let prior = if count == FEATURES { PRIOR.to_vec() } else { vec![OF_SQUARES; count] };
+    let weights = fitted(&rims, &prior);
     #[expect(clippy::print_stdout, reason = "an example prints what it found")]
     {
         println!("{} rims, {} right", rims.len(), rims.iter().filter(|(_, is_right)| *is_right).count());
@@ -49,14 +56,14 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn parsed(line: &str) -> Option<(Vector, bool)> {
     let fields: Vec<&str> = line.split(',').collect();
     let features: Vec<f64> = fields.get(3..)?.iter().filter_map(|field| field.parse().ok()).collect();
-    (features.len() == FEATURES).then(|| (Vector::from_vec(features), fields[2] == "1"))
+    [FEATURES, SQUARE_FEATURES].contains(&features.len()).then(|| (Vector::from_vec(features), fields[2] == "1"))
 }
 
-fn fitted(rims: &[(Vector, bool)]) -> Vector {
-    let mean = Vector::from_fn(|i, _| PRIOR[i].0);
-    let precision = Vector::from_fn(|i, _| PRIOR[i].1.powi(-2));
+fn fitted(rims: &[(Vector, bool)], prior: &[(f64, f64)]) -> Vector {
+    let mean = Vector::from_fn(prior.len(), |i, _| prior[i].0);
+    let precision = Vector::from_fn(prior.len(), |i, _| prior[i].1.powi(-2));
     let cost = |weights: &Vector| {
-        let off = weights - mean;
+        let off = weights - &mean;
         let misfit: f64 = rims
             .iter()
             .map(|(features, is_right)| {
@@ -67,10 +74,10 @@ fn fitted(rims: &[(Vector, bool)]) -> Vector {
             .sum();
         misfit + 0.5 * off.component_mul(&off).dot(&precision)
     };
-    let mut weights = mean;
+    let mut weights = mean.clone();
     for _ in 0..STEPS {
-        let mut slope = precision.component_mul(&(mean - weights));
-        let mut curvature = SMatrix::<f64, FEATURES, FEATURES>::from_diagonal(&precision);
+        let mut slope = precision.component_mul(&(&mean - &weights));
+        let mut curvature = DMatrix::from_diagonal(&precision);
         for (features, is_right) in rims {
             let likely = 1.0 / (1.0 + (-features.dot(&weights)).exp());
             slope += features * (f64::from(u8::from(*is_right)) - likely);
@@ -79,7 +86,7 @@ fn fitted(rims: &[(Vector, bool)]) -> Vector {
         let Some(inverse) = curvature.try_inverse() else { break };
         let mut step = inverse * slope;
         let before = cost(&weights);
-        while cost(&(weights + step)) > before && step.norm() > 1e-12 {
+        while cost(&(&weights + &step)) > before && step.norm() > 1e-12 {
             step *= 0.5;
         }
         weights += step;

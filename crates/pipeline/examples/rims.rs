@@ -1,13 +1,16 @@
 //! Rims found in one picture, and how long that takes: a look at the detector without the whole program.
 //!
 //! ```text
-//! cargo run -p aim-batch-pipeline --example rims -- PICTURE CAMERA.toml PITCH_DEG ROLL_DEG RANGE_MM
+//! cargo run -p aim-batch-pipeline --example rims -- PICTURE CAMERA.toml PITCH_DEG ROLL_DEG RANGE_MM [SHAPES]
 //! ```
+//!
+//! SHAPES: circle (default), rectangle, or both with a comma between.
 
 use std::error::Error;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use aim_batch_pipeline::rims::{RimShape, find_rims_of};
 use ingest::{Picture, camera};
 use model::{Pose, View};
 
@@ -16,9 +19,11 @@ const REPEATS: u32 = 7;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [picture, camera_file, pitch_deg, roll_deg, range_mm] = arguments.as_slice() else {
-        return Err("usage: rims PICTURE CAMERA.toml PITCH_DEG ROLL_DEG RANGE_MM".into());
+    let [picture, camera_file, pitch_deg, roll_deg, range_mm, more @ ..] = arguments.as_slice() else {
+        return Err("usage: rims PICTURE CAMERA.toml PITCH_DEG ROLL_DEG RANGE_MM [SHAPES]".into());
     };
+    let shapes = more.first().map_or("circle", String::as_str).split(',');
+    let shapes = shapes.map(str::parse).collect::<Result<Vec<RimShape>, _>>()?;
     let number = |text: &String| text.parse::<f64>();
     let pose = Pose::new(number(pitch_deg)?.to_radians(), number(roll_deg)?.to_radians(), number(range_mm)?)?;
     let view = View::new(camera::read_file(Path::new(camera_file))?.camera()?, pose);
@@ -30,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let picture = Picture::decode(&bytes)?;
         decoding = decoding.min(start.elapsed());
         let start = Instant::now();
-        rims = aim_batch_pipeline::rims::find_rims(&picture, &view)?;
+        rims = find_rims_of(&picture, &view, &shapes)?;
         finding = finding.min(start.elapsed());
     }
     #[expect(clippy::print_stdout, reason = "an example prints what it found")]

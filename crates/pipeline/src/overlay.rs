@@ -9,7 +9,7 @@ use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 use embedded_graphics::primitives::{Line, Primitive, PrimitiveStyle};
 use embedded_graphics::text::Text;
 use ingest::Picture;
-use model::{Feature, Mark, ObjectMarks, View, fit_circle};
+use model::{Feature, Mark, ObjectMarks, Shape, View, fit_circle};
 use nalgebra::{Point2, Point3, Vector2};
 
 /// What is drawn of one object.
@@ -17,7 +17,9 @@ use nalgebra::{Point2, Point3, Vector2};
 pub struct Drawn {
     /// Its marks.
     pub marks: ObjectMarks,
-    /// Height of its rim above the table, where circles are drawn.
+    /// Its outline: what is drawn through points along its rim.
+    pub shape: Shape,
+    /// Height of its rim above the table, where circles and rectangles are drawn.
     pub plane_z_mm: f64,
     /// What is written beside it, line by line (ASCII).
     pub text: Vec<String>,
@@ -25,8 +27,9 @@ pub struct Drawn {
 
 /// Line width: one pixel for pictures of up to this many pixels across.
 const LINE_SIDE_PX: u32 = 800;
-/// Places along a drawn circle.
+/// Places along a drawn circle, and along a side.
 const PLACES: u32 = 180;
+const SIDE_PLACES: u32 = 24;
 const RIM: Rgb888 = Rgb888::GREEN;
 const AXES: Rgb888 = Rgb888::YELLOW;
 const POINTS: Rgb888 = Rgb888::RED;
@@ -63,7 +66,12 @@ fn draw_marks(canvas: &mut Canvas<'_>, view: &View, object: &Drawn, width: u32) 
             Mark::Line { ends_px: [a, b], .. } => line(canvas, *a, *b, AXES, width),
             Mark::Outline { feature, points_px } => {
                 let z_mm = if *feature == Feature::Rim { object.plane_z_mm } else { 0.0 };
-                circle(canvas, view, points_px, z_mm, width);
+                match points_px.as_slice() {
+                    &[a, b, c, d] if object.shape != Shape::Circle => {
+                        corners(canvas, view, [a, b, c, d], z_mm, width);
+                    }
+                    _ => circle(canvas, view, points_px, z_mm, width),
+                }
                 for p in points_px {
                     let step = Vector2::new(f64::from(width), 0.0);
                     line(canvas, p - step, p + step, POINTS, width);
@@ -80,6 +88,28 @@ fn draw_marks(canvas: &mut Canvas<'_>, view: &View, object: &Drawn, width: u32) 
         }
     }
     corner
+}
+
+/// The sides between corners on a plane, straight there, and the lines from side to side.
+fn corners(canvas: &mut Canvas<'_>, view: &View, corners_px: [Point2<f64>; 4], z_mm: f64, width: u32) {
+    let [Ok(a), Ok(b), Ok(c), Ok(d)] = corners_px.map(|p| view.on_plane(p, z_mm)) else { return };
+    let mut straight = |from: Point2<f64>, to: Point2<f64>, colour: Rgb888| {
+        let at = |i: u32| {
+            let place = from + (to - from) * (f64::from(i) / f64::from(SIDE_PLACES));
+            view.pixel_of(Point3::new(place.x, place.y, z_mm)).ok()
+        };
+        for i in 0..SIDE_PLACES {
+            if let (Some(one), Some(other)) = (at(i), at(i + 1)) {
+                line(canvas, one, other, colour, width);
+            }
+        }
+    };
+    for (from, to) in [(a, b), (b, c), (c, d), (d, a)] {
+        straight(from, to, RIM);
+    }
+    for [from, to] in [[(a, b), (c, d)], [(b, c), (d, a)]] {
+        straight(nalgebra::center(&from.0, &from.1), nalgebra::center(&to.0, &to.1), AXES);
+    }
 }
 
 /// The circle through points on a plane, with its axes along world X and Y.
@@ -191,7 +221,11 @@ mod tests {
             marks: vec![Mark::Outline { feature: Feature::Rim, points_px: points_px.clone() }],
         };
         let mut picture = Picture { width_px: 320, height_px: 240, rgb: vec![7; 3 * 320 * 240] };
-        draw(&mut picture, &view, &[Drawn { marks, plane_z_mm: 0.0, text: vec!["o 1.0".to_owned()] }]);
+        draw(
+            &mut picture,
+            &view,
+            &[Drawn { marks, shape: Shape::Circle, plane_z_mm: 0.0, text: vec!["o 1.0".to_owned()] }],
+        );
         let colour = |place: Point2<f64>| {
             let at = pixel(place);
             let start = 3 * (at.y as usize * 320 + at.x as usize);
@@ -204,6 +238,26 @@ mod tests {
     }
 
     #[test]
+    fn rectangles_are_drawn_along_their_sides_and_not_as_the_circle_through_their_corners() {
+        let view = view();
+        let center = view.on_plane(Point2::new(160.0, 120.0), 0.0).unwrap();
+        let place = |x: f64, y: f64| view.pixel_of(Point3::new(center.x + x, center.y + y, 0.0)).unwrap();
+        let points_px = vec![place(-60.0, -40.0), place(60.0, -40.0), place(60.0, 40.0), place(-60.0, 40.0)];
+        let marks =
+            ObjectMarks { object: "o".to_owned(), marks: vec![Mark::Outline { feature: Feature::Rim, points_px }] };
+        let mut picture = Picture { width_px: 320, height_px: 240, rgb: vec![7; 3 * 320 * 240] };
+        draw(&mut picture, &view, &[Drawn { marks, shape: Shape::Rectangle, plane_z_mm: 0.0, text: Vec::new() }]);
+        let colour = |place: Point2<f64>| {
+            let at = pixel(place);
+            let start = 3 * (at.y as usize * 320 + at.x as usize);
+            [picture.rgb[start], picture.rgb[start + 1], picture.rgb[start + 2]]
+        };
+        assert_eq!(colour(place(60.0, 20.0)), [0, 255, 0]);
+        assert_eq!(colour(place(0.0, 0.0)), [255, 255, 0], "the axes meet in the middle");
+        assert_eq!(colour(place(0.0, 72.0)), [7; 3], "no circle");
+    }
+
+    #[test]
     fn marks_far_outside_the_picture_do_no_harm() {
         let far = Point2::new(-1e12, 1e12);
         let line = Mark::Line { quantity: model::Quantity::Height, ends_px: [far, Point2::new(10.0, 10.0)] };
@@ -212,7 +266,7 @@ mod tests {
         draw(
             &mut picture,
             &view(),
-            &[Drawn { marks, plane_z_mm: 0.0, text: vec!["too long for its place".repeat(9)] }],
+            &[Drawn { marks, shape: Shape::Circle, plane_z_mm: 0.0, text: vec!["too long for its place".repeat(9)] }],
         );
         assert_eq!(picture.rgb.len(), 3 * 320 * 240);
     }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use model::{Kind, Shape, Wall};
+use pipeline::rims::RimShape;
 
 /// Where the camera is, for `project` and `measure`.
 #[derive(Debug, clap::Args)]
@@ -53,9 +54,12 @@ pub struct MeasureArgs {
     /// Marks, as a LabelMe file (docs/study.md)
     #[arg(long, value_name = "FILE.json", required_unless_present = "auto", conflicts_with = "auto")]
     pub marks: Option<PathBuf>,
-    /// Find round rims without marks (docs/rims.md)
+    /// Find rims without marks (docs/rims.md)
     #[arg(long)]
     pub auto: bool,
+    /// Shapes of rims that --auto looks for (circle, rectangle), separated by commas
+    #[arg(long, value_delimiter = ',', default_value = "circle", requires = "auto")]
+    pub shapes: Vec<RimShape>,
     /// Least confidence of a rim that is told, 0 to 1
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, requires = "auto")]
     pub min_confidence: f64,

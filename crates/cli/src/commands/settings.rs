@@ -26,6 +26,9 @@ fn apply(args: &SettingsArgs, spec: &mut StudySpec) {
     if let Some(source) = args.marks {
         spec.marks.source = source;
     }
+    if !args.shapes.is_empty() {
+        spec.marks.shapes.clone_from(&args.shapes);
+    }
     if let Some(pitch_deg) = args.target_pitch {
         spec.select.target_pitch_deg = pitch_deg;
     }

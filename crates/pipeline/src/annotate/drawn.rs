@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use ingest::{ImageNotes, MarkNote, Picture};
-use model::{Mark, ObjectMarks, ResultRow, View, resampled_px};
+use model::{Mark, ObjectMarks, ResultRow, Shape, View, resampled_px};
 use nalgebra::Point2;
 
 use crate::overlay::{Drawn, draw};
@@ -34,7 +34,9 @@ fn objects(notes: &ImageNotes<'_>, place: impl Fn([f64; 2]) -> Point2<f64>) -> V
     let drawn = |(object, marks): (&str, Vec<&MarkNote>)| {
         let raters: BTreeSet<&str> = marks.iter().map(|mark| mark.rater.as_str()).collect();
         let of_object = notes.sizes.iter().filter(|row| row.object == object);
+        let shape = of_object.clone().map(|row| row.shape).next();
         Drawn {
+            shape: shape.unwrap_or(Shape::Circle),
             plane_z_mm: marks.iter().filter_map(|mark| mark.plane_z_mm).fold(0.0, f64::max),
             marks: ObjectMarks {
                 object: object.to_owned(),

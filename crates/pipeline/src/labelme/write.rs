@@ -89,7 +89,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
     use std::path::Path;
 
-    use model::Kind;
+    use model::{Kind, Shape};
 
     use super::*;
     use crate::labelme::parse;
@@ -99,7 +99,14 @@ mod tests {
         let height = RimHeight { mm: 61.234_567_890_123_4, sigma_mm: 0.1 + 0.2, source: HeightSource::Foot };
         let points_px = (0..40).map(|i| [300.123 + f64::from(i).sin() / 3.0, 0.1 * f64::from(i)]).collect();
         let plate_height = Some(RimHeight { mm: 12.3, ..height });
-        let found = Found { kind: Kind::Bowl, confidence: 1.0 / 3.0, perimeter_px: 512.7, height, plate_height };
+        let found = Found {
+            kind: Kind::Bowl,
+            shape: Shape::Circle,
+            confidence: 1.0 / 3.0,
+            perimeter_px: 512.7,
+            height,
+            plate_height,
+        };
         AutoRim { object: "auto-2".to_owned(), points_px, found }
     }
 
@@ -110,6 +117,18 @@ mod tests {
         assert!(marks.refused.is_empty(), "{:?}", marks.refused);
         assert_eq!(marks.objects, [rim().marks()]);
         assert_eq!(marks.found.into_iter().collect::<Vec<_>>(), [("auto-2".to_owned(), rim().found)]);
+    }
+
+    #[test]
+    fn only_rectangles_say_their_shape() {
+        let round = text_of(&[rim()], "../a.jpg", [640, 480]).unwrap();
+        assert!(!round.contains("\"shape\""));
+        let found = Found { shape: Shape::Rectangle, kind: Kind::Plate, ..rim().found };
+        let square = AutoRim { points_px: vec![[1.0, 2.0], [9.0, 2.0], [9.0, 7.0], [1.0, 7.0]], found, ..rim() };
+        let text = text_of(std::slice::from_ref(&square), "../a.jpg", [640, 480]).unwrap();
+        let marks = parse(text.as_bytes(), Path::new("a.json"), [640, 480]).unwrap();
+        assert_eq!(marks.objects, [square.marks()]);
+        assert_eq!(marks.found["auto-2"].shape, Shape::Rectangle);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What is known of a rim that was found, besides its points; it goes with them wherever they go.
 
-use model::Kind;
+use model::{Kind, Shape};
 use serde::{Deserialize, Serialize};
 
 use super::{Rim, RimHeight};
@@ -12,6 +12,9 @@ use super::{Rim, RimHeight};
 pub struct Found {
     /// What it looks like.
     pub kind: Kind,
+    /// Its outline. Files say it of rectangles only.
+    #[serde(default = "circle", skip_serializing_if = "is_circle")]
+    pub shape: Shape,
     /// From 0 to 1: how sure it is that this is the rim of a container.
     pub confidence: f64,
     /// Length of the rim as it appears.
@@ -23,12 +26,21 @@ pub struct Found {
     pub plate_height: Option<RimHeight>,
 }
 
+fn circle() -> Shape {
+    Shape::Circle
+}
+
+fn is_circle(shape: &Shape) -> bool {
+    *shape == Shape::Circle
+}
+
 impl Rim {
     /// What is known of it besides its points.
     #[must_use]
     pub fn found(&self) -> Found {
         let Self { kind, confidence, perimeter_px, height, plate_height, .. } = *self;
-        Found { kind, confidence, perimeter_px, height, plate_height: Some(plate_height) }
+        let shape = self.shape();
+        Found { kind, shape, confidence, perimeter_px, height, plate_height: Some(plate_height) }
     }
 }
 

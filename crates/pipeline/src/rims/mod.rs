@@ -7,6 +7,8 @@
 //! ([`lip`]) and followed ([`refine`]). The height comes from foot and wall below the rim and the floor within it ([`height`],
 //! [`wall`], [`floor`]).
 //!
+//! Rectangles are found among the same edges, where they are asked for ([`squares`]).
+//!
 //! A found rim becomes the same [`ObjectMarks`] as a person's marks, and is measured by the same code.
 
 mod arcs;
@@ -24,15 +26,17 @@ mod refine;
 mod scaled;
 mod search;
 mod select;
+mod shapes;
 mod significance;
 mod sizes;
+mod squares;
 #[cfg(test)]
 mod tests;
 mod votes;
 mod wall;
 
 use ingest::Picture;
-use model::{Feature, Kind, Mark, ObjectMarks, View};
+use model::{Feature, Kind, Mark, ObjectMarks, Shape, View};
 use nalgebra::{Point2, Point3};
 
 use buckets::Buckets;
@@ -42,7 +46,9 @@ pub use height::{HeightSource, RimHeight};
 use refine::Followed;
 use scaled::Scaled;
 use select::Scored;
+pub use shapes::{RimShape, UnknownRimShape};
 pub use significance::{Evidence, FEATURES};
+pub use squares::{SQUARE_FEATURES, SquareEvidence};
 
 /// A rim found in a picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,7 +61,7 @@ pub struct Rim {
     pub plate_log_odds: f64,
     /// Where the centre of the rim appears.
     pub center_px: Point2<f64>,
-    /// Points along it, in order, where the picture shows it.
+    /// Points along it, in order, where the picture shows it; of a rectangle its four corners.
     pub points_px: Vec<Point2<f64>>,
     /// Length of the rim as it appears.
     pub perimeter_px: f64,
@@ -65,8 +71,11 @@ pub struct Rim {
     pub height: RimHeight,
     /// Its height if it is a plate's.
     pub plate_height: RimHeight,
-    /// Centre (world X, Y) and radius of the circle that it appears as on the plane Z = 0, in mm.
+    /// Centre (world X, Y) and radius of the circle that it appears as on the plane Z = 0, in mm; of a rectangle a quarter of
+    /// the sum of both sides.
     pub on_table_mm: ([f64; 2], f64),
+    /// What speaks for it besides, if it is a rectangle; none of a round rim.
+    pub square: Option<SquareEvidence>,
 }
 
 /// Why rims cannot be looked for.
@@ -99,11 +108,19 @@ pub const LEAST_DIAMETER_MM: f64 = 90.0;
 /// Fewer points do not hold a rim.
 pub(crate) const LEAST_POINTS: usize = 12;
 
-/// The rims in a picture taken from a known pose, most likely first.
+/// The round rims in a picture taken from a known pose, most likely first.
 ///
 /// # Errors
 /// [`RimError`] when the picture is not of the camera's size, or not all there.
 pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
+    find_rims_of(picture, view, &[RimShape::Circle])
+}
+
+/// The rims of these shapes in a picture taken from a known pose, most likely first.
+///
+/// # Errors
+/// [`RimError`] when the picture is not of the camera's size, or not all there.
+pub fn find_rims_of(picture: &Picture, view: &View, shapes: &[RimShape]) -> Result<Vec<Rim>, RimError> {
     let found_px = [picture.width_px, picture.height_px];
     if found_px != view.camera().size_px() {
         return Err(RimError::Size { found_px, expected_px: view.camera().size_px() });
@@ -113,10 +130,17 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
         return Err(RimError::Bytes { found: picture.rgb.len(), expected });
     }
     let scaled = Scaled::of(picture, view.camera().focal_px()[0]);
-    let buckets = Buckets::new(&ground::ground_edges(view, &scaled));
-    let found = search::rims(view, &buckets);
-    let mut rims: Vec<Rim> =
-        found.iter().filter_map(|found| in_full(picture, view, &buckets, found, scaled.factor)).collect();
+    let edges = ground::ground_edges(view, &scaled);
+    let mut rims = Vec::new();
+    if shapes.contains(&RimShape::Circle) {
+        let buckets = Buckets::new(&edges);
+        let found = search::rims(view, &buckets);
+        rims.extend(found.iter().filter_map(|found| in_full(picture, view, &buckets, found, scaled.factor)));
+    }
+    if shapes.contains(&RimShape::Rectangle) {
+        let squares = squares::squares(picture, view, &edges, scaled.factor);
+        rims.extend(squares.into_iter().map(|square| square.rim(view)));
+    }
     rims.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
     Ok(rims)
 }
@@ -142,6 +166,7 @@ fn in_full(picture: &Picture, view: &View, buckets: &Buckets, found: &Scored, fa
         height: bowl,
         plate_height: plate,
         on_table_mm: ([arc.disc.x, arc.disc.y], arc.disc.radius),
+        square: None,
     })
 }
 
@@ -151,6 +176,12 @@ impl Rim {
     pub fn diameter_mm(&self, view: &View) -> f64 {
         let height = if self.kind == Kind::Plate { self.plate_height } else { self.height };
         2.0 * self.on_table_mm.1 * (1.0 - height.mm / view.pose().camera_height_mm())
+    }
+
+    /// Its outline.
+    #[must_use]
+    pub fn shape(&self) -> Shape {
+        if self.square.is_some() { Shape::Rectangle } else { Shape::Circle }
     }
 
     /// The marks that a person would have made.

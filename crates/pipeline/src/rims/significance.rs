@@ -140,7 +140,7 @@ fn longest_run(bins: &[i8; BINS]) -> usize {
 }
 
 /// Upper bound of log10 P(at least `share` of `trials` succeed by chance `p` each), by Hoeffding (1963, Theorem 1).
-fn binomial_tail_log10(trials: f64, share: f64, p: f64) -> f64 {
+pub(super) fn binomial_tail_log10(trials: f64, share: f64, p: f64) -> f64 {
     let p = p.clamp(1e-3, 1.0);
     if share <= p {
         return 0.0;

@@ -2,13 +2,13 @@
 
 use model::{
     Container, Estimate, InputSigma, Kind, MeasureError, Measured, Method, ObjectMarks, PerSource, Quantity,
-    Sensitivity, View, estimate,
+    Sensitivity, Shape, View, estimate,
 };
 
-use super::{Found, HeightSource, Rim, RimHeight};
+use super::{Found, HeightSource, Rim, RimHeight, squares};
 
 /// The places of an edge share an error of about this many pixels, outward or inward: rims are rounded, lenses blur.
-const SHARED_PX: f64 = 0.5;
+pub(super) const SHARED_PX: f64 = 0.5;
 
 impl Rim {
     /// The height of the plane that it is measured on: what is known, else what was found for its kind.
@@ -54,6 +54,9 @@ impl Found {
         marks: &ObjectMarks,
         inputs: &InputSigma,
     ) -> Vec<(Quantity, Result<Estimate, MeasureError>)> {
+        if self.shape != Shape::Circle {
+            return squares::sizes(self, view, method, container, marks, inputs);
+        }
         let height = self.height_as(container);
         let on_plane = |mm: f64| {
             let container = Container { rim_height_mm: Some(mm), ..*container };

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::calibrate::CalibrationFile;
 use crate::inputs::{sha256_of_bytes, sha256_of_file};
-use crate::rims;
+use crate::rims::{self, RimShape};
 use crate::session::{AUTO, Prepared};
 use crate::signals::ReadingSettings;
 use crate::study::{
@@ -71,6 +71,13 @@ struct SearchParts<'a> {
     min_confidence: f64,
     min_diameter_mm: f64,
     camera: &'a CameraSpec,
+    #[serde(skip_serializing_if = "is_default")]
+    shapes: &'a [RimShape],
+}
+
+/// Searches for round rims keep the keys that they had before there were others.
+fn is_default(shapes: &[RimShape]) -> bool {
+    shapes == [RimShape::Circle]
 }
 
 impl<'a> MeasureParts<'a> {
@@ -106,6 +113,7 @@ impl<'a> MeasureParts<'a> {
                 min_confidence: spec.marks.min_confidence,
                 min_diameter_mm: spec.marks.min_diameter_mm,
                 camera: &prepared.source.camera_spec,
+                shapes: &spec.marks.shapes,
             }),
         }
     }

@@ -35,12 +35,12 @@ pub(super) fn height_source(marked: &Marked<'_>) -> Option<HeightSource> {
     Some(by_itself(marked)?.height_as(&marked.object.container).source)
 }
 
-/// What was found of the rim, unless a person has added other marks, or it is not round.
+/// What was found of the rim, unless a person has added other marks, or the object has another shape.
 fn by_itself<'a>(marked: &'a Marked<'_>) -> Option<&'a Found> {
     let is_rim = |mark: &Mark| matches!(mark, Mark::Outline { feature: Feature::Rim, .. });
     let Container { kind, shape, .. } = marked.object.container;
-    let is_round = kind != Kind::Box && shape == Shape::Circle;
-    marked.found.as_ref().filter(|_| is_round && marked.marks.marks.iter().all(is_rim))
+    let is_as_found = |found: &&Found| kind != Kind::Box && (shape == Shape::Circle) == (found.shape == Shape::Circle);
+    marked.found.as_ref().filter(|found| is_as_found(found) && marked.marks.marks.iter().all(is_rim))
 }
 
 /// Height and edge of a rim err alike in all images of it: that part counts as common; and images are weighed by all of it.

@@ -84,7 +84,7 @@ fn problem(code: &str, place: String, fact: String, remedy: &str) -> Problem {
 
 #[cfg(test)]
 mod tests {
-    use model::Kind;
+    use model::{Kind, Shape};
 
     use super::*;
     use crate::rims::{HeightSource, RimHeight};
@@ -99,6 +99,7 @@ mod tests {
         let height = RimHeight { mm: 20.0, sigma_mm: 5.0, source: HeightSource::Common };
         let found = |confidence| Found {
             kind: Kind::Plate,
+            shape: Shape::Circle,
             confidence,
             perimeter_px: 500.0,
             height,

@@ -136,6 +136,9 @@ impl StudySpec {
         if self.name.trim().is_empty() {
             return refuse("name", &self.name, "a name");
         }
+        if self.marks.shapes.is_empty() {
+            return refuse("marks.shapes", "[]", "circle, rectangle, or both");
+        }
         if self.measure.methods.is_empty() {
             return refuse("measure.methods", "[]", "at least one of paper, ray");
         }

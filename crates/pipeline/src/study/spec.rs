@@ -6,7 +6,7 @@ use model::{Kind, Method, Note, Quantity, Selection, TableLayout};
 use serde::{Deserialize, Serialize};
 
 use super::{MarksSource, UncertaintySpec};
-use crate::rims::LEAST_DIAMETER_MM;
+use crate::rims::{LEAST_DIAMETER_MM, RimShape};
 
 /// The version of study.toml that this program reads.
 pub(crate) const STUDY_SCHEMA_VERSION: u32 = 1;
@@ -71,11 +71,19 @@ pub struct MarksSpec {
     pub min_confidence: f64,
     /// Rims that the program finds and that are narrower, in mm, are left out: cups, mugs and drinking glasses.
     pub min_diameter_mm: f64,
+    /// Shapes of rims that the program looks for.
+    pub shapes: Vec<RimShape>,
 }
 
 impl Default for MarksSpec {
     fn default() -> Self {
-        Self { camera: None, source: MarksSource::default(), min_confidence: 0.5, min_diameter_mm: LEAST_DIAMETER_MM }
+        Self {
+            camera: None,
+            source: MarksSource::default(),
+            min_confidence: 0.5,
+            min_diameter_mm: LEAST_DIAMETER_MM,
+            shapes: vec![RimShape::Circle],
+        }
     }
 }
 

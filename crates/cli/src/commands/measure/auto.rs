@@ -3,7 +3,7 @@
 use anyhow::{Context, anyhow};
 use ingest::Picture;
 use model::{Container, Kind, Method, Shape, View};
-use pipeline::rims::{HeightSource, Rim, find_rims};
+use pipeline::rims::{HeightSource, Rim, find_rims_of};
 use pipeline::study::UncertaintySpec;
 
 use super::super::{outcome, print, tell};
@@ -17,16 +17,19 @@ const METHODS: [Method; 2] = [Method::Ray, Method::Paper];
 
 /// Finds, measures and prints.
 pub fn run(args: &MeasureArgs, view: &View, bytes: &[u8]) -> Result<Outcome, Failure> {
-    if args.kind == Some(Kind::Box) || args.shape.is_some_and(|shape| shape != Shape::Circle) {
+    if args.kind == Some(Kind::Box) {
+        return Err(Failure::Usage(anyhow!("--auto finds no boxes: mark them, and give --marks")));
+    }
+    if args.shape.is_some_and(|shape| shape != Shape::Circle) {
         return Err(Failure::Usage(anyhow!(
-            "--auto finds round rims only: mark boxes and rectangles, and give --marks"
+            "--shape is for marks; with --auto give --shapes circle, --shapes rectangle, or both"
         )));
     }
     if !(0.0..=1.0).contains(&args.min_confidence) {
         return Err(Failure::Usage(anyhow!("--min-confidence: expected 0 to 1")));
     }
     let picture = Picture::decode(bytes).with_context(|| format!("picture {}", args.image.display()))?;
-    let mut rims = find_rims(&picture, view).context("rims")?;
+    let mut rims = find_rims_of(&picture, view, &args.shapes).context("rims")?;
     rims.retain(|rim| rim.confidence >= args.min_confidence);
     let inputs = UncertaintySpec::default().inputs();
     let mut sizes: Vec<Size> = Vec::new();
@@ -34,7 +37,7 @@ pub fn run(args: &MeasureArgs, view: &View, bytes: &[u8]) -> Result<Outcome, Fai
     for (rim, number) in rims.iter().zip(1..) {
         let object = format!("auto-{number}");
         let kind = args.kind.unwrap_or(rim.kind);
-        let container = Container { kind, shape: Shape::Circle, rim_height_mm: args.rim_height, wall: args.wall };
+        let container = Container { kind, shape: rim.shape(), rim_height_mm: args.rim_height, wall: args.wall };
         let found = found(rim, &container);
         let of_rim = METHODS.into_iter().flat_map(|method| {
             let measured = rim.sizes(view, method, &container, &inputs);

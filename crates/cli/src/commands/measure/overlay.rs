@@ -31,6 +31,7 @@ pub fn of_marked(
             let on_rim = of_object.iter().filter(|size| size.method == Method::Ray).filter_map(|size| size.plane_z_mm);
             Drawn {
                 marks: marks.clone(),
+                shape: container.shape,
                 plane_z_mm: known.unwrap_or_else(|| on_rim.fold(0.0, f64::max)),
                 text: lines(&marks.object, None, of_object),
             }
@@ -43,6 +44,7 @@ pub fn of_marked(
 pub fn of_rim(rim: &Rim, container: &Container, object: &str, sizes: &[Size]) -> Drawn {
     Drawn {
         marks: rim.marks(object),
+        shape: container.shape,
         plane_z_mm: rim.height_as(container).mm,
         text: lines(object, Some(rim.confidence), sizes),
     }

@@ -19,7 +19,7 @@ use super::recording::bad_mcap;
 use super::{Frame, Prepared, Recording, stem_of};
 use crate::calibrate::corrected_view;
 use crate::labelme::{self, AutoRim};
-use crate::rims::{self, Found, Rim, find_rims};
+use crate::rims::{self, Found, Rim, find_rims_of};
 use crate::stop::Stop;
 use crate::study::{SessionDir, Study, marks_in, number_of_found};
 use looks::Looks;
@@ -120,7 +120,7 @@ impl Search<'_> {
             return Ok(Vec::new());
         };
         let picture = Picture::decode(bytes).map_err(|error| error.to_string())?;
-        let rims = find_rims(&picture, &view).map_err(|error| error.to_string())?;
+        let rims = find_rims_of(&picture, &view, &self.study.spec.marks.shapes).map_err(|error| error.to_string())?;
         let sure = rims.iter().filter(|rim| rim.confidence >= self.study.spec.marks.min_confidence);
         Ok(sure.filter_map(|rim| self.seen(number, frame, &view, rim)).collect())
     }
@@ -135,7 +135,8 @@ impl Search<'_> {
         let auto = AutoRim { object: String::new(), points_px, found };
         let sighting = self.sighting(number, frame, view, rim)?;
         let image = frame.image.file.clone();
-        (auto.points_px.len() >= rims::LEAST_POINTS).then_some(Seen { image, rim: auto, sighting })
+        let least = if found.shape == Shape::Circle { rims::LEAST_POINTS } else { CORNERS };
+        (auto.points_px.len() >= least).then_some(Seen { image, rim: auto, sighting })
     }
 
     fn sighting(&self, number: usize, frame: &Frame, view: &View, rim: &Rim) -> Option<Sighting> {
@@ -145,13 +146,18 @@ impl Search<'_> {
         // As if its height were known: what its uncertainty does to the size is for all images of a container together.
         let container = Container { rim_height_mm: Some(height_mm), ..own };
         let sizes = rim.sizes(view, Method::Ray, &container, &inputs_of(self.study, frame));
-        let (_, diameter) = sizes.into_iter().find(|(quantity, _)| *quantity == Quantity::Diameter)?;
-        let Estimate { measured, sigma, .. } = diameter.ok()?;
+        let size = |wanted: Quantity| {
+            let (_, size) = sizes.iter().find(|(quantity, _)| *quantity == wanted)?;
+            size.as_ref().ok()
+        };
+        let width_mm = size(Quantity::Width).map(|width| width.measured.predicted_mm);
+        let Estimate { measured, sigma, .. } = size(Quantity::Diameter).or_else(|| size(Quantity::Length))?;
         Some(Sighting {
             image: number,
             time: frame.image.time,
             across_mm: measured.predicted_mm / (1.0 - height_mm / camera_mm),
-            relative_sigma: sigma_within_session_mm(&sigma) / measured.predicted_mm,
+            narrowness: width_mm.map(|width_mm| width_mm / measured.predicted_mm),
+            relative_sigma: sigma_within_session_mm(sigma) / measured.predicted_mm,
             camera_mm,
             at_mm: rim.on_table_mm.0,
             looks: Looks { plate: rim.plate_height, bowl: rim.height, plate_log_odds: rim.plate_log_odds },
@@ -181,12 +187,15 @@ fn sigma_within_session_mm(sigma: &SizeSigma) -> f64 {
 /// 103) sizes of one container scatter by 3.8 %, edges that are not the rim's outer one included, where 3.9 % are stated.
 const VIEWS_DIFFER: f64 = 0.75;
 
+/// Points of a rectangle.
+const CORNERS: usize = 4;
+
 /// A decoded picture has three bytes per pixel; edges are found in a fourth.
 const BYTES_PER_PIXEL: u64 = 4;
 
 /// What is known of a container that is in no list: what it looks like.
 pub(super) fn container_of(found: &Found) -> Container {
-    Container { kind: found.kind, shape: Shape::Circle, rim_height_mm: None, wall: None }
+    Container { kind: found.kind, shape: found.shape, rim_height_mm: None, wall: None }
 }
 
 /// Where a point of the recorded picture is in the pictures that people mark, to a thousandth of a pixel: far below what an

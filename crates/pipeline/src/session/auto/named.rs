@@ -18,7 +18,7 @@ pub(super) fn named(seen: Vec<Seen>, taken: &BTreeSet<u32>, least_diameter_mm: f
     for track in containers(&sightings) {
         let Some(looks) = track.looks() else { continue };
         let kind = looks.kind();
-        let is_wide = track.diameter_mm(looks.height(kind).mm) >= least_diameter_mm;
+        let is_wide = track.narrowest_mm(looks.height(kind).mm) >= least_diameter_mm;
         if !is_wide {
             continue;
         }
@@ -39,7 +39,7 @@ pub(super) fn named(seen: Vec<Seen>, taken: &BTreeSet<u32>, least_diameter_mm: f
 
 #[cfg(test)]
 mod tests {
-    use model::{Kind, UtcNs};
+    use model::{Kind, Shape, UtcNs};
 
     use super::*;
     use crate::rims::{HeightSource, RimHeight};
@@ -52,11 +52,13 @@ mod tests {
         let height = |mm: f64| RimHeight { mm, sigma_mm: 10.0, source: HeightSource::Foot };
         let (plate, bowl) = (height(20.0), height(bowl_mm));
         let kind = if plate_log_odds > 0.0 { Kind::Plate } else { Kind::Bowl };
-        let found = Found { kind, confidence: 0.9, perimeter_px: 500.0, height: bowl, plate_height: Some(plate) };
+        let (shape, plate_height) = (Shape::Circle, Some(plate));
+        let found = Found { kind, shape, confidence: 0.9, perimeter_px: 500.0, height: bowl, plate_height };
         let sighting = Sighting {
             image: image as usize,
             time: UtcNs(i64::from(image) * 1_000_000_000_000),
             across_mm,
+            narrowness: None,
             relative_sigma: 0.03,
             camera_mm: 400.0,
             at_mm: [0.0, 300.0],

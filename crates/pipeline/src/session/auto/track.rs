@@ -12,8 +12,10 @@ pub(super) struct Sighting {
     /// Number of its image in the session.
     pub image: usize,
     pub time: UtcNs,
-    /// Diameter that it has on the plane Z = 0; on the plane Z = h it is smaller by the factor 1 - h / camera_mm.
+    /// Diameter, or length of a rectangle, that it has on the plane Z = 0; on the plane Z = h it is smaller by the factor 1 - h / camera_mm.
     pub across_mm: f64,
+    /// Width of a rectangle over its length; none of a round one.
+    pub narrowness: Option<f64>,
     /// Its relative standard uncertainty against other images of the session.
     pub relative_sigma: f64,
     /// Height of the camera above the table.
@@ -38,6 +40,8 @@ pub(super) struct Track {
     /// Its images.
     pub images: BTreeSet<usize>,
     together: Together,
+    /// As the first one has it.
+    narrowness: Option<f64>,
     /// Sums over its sightings, by weight: of weights, of diameters on Z = 0, and of those over the camera's height.
     weight: f64,
     across_mm: f64,
@@ -50,6 +54,7 @@ impl Track {
             members: Vec::new(),
             images: BTreeSet::new(),
             together: Together::default(),
+            narrowness: sighting.narrowness,
             weight: 0.0,
             across_mm: 0.0,
             across_per_camera: 0.0,
@@ -88,6 +93,20 @@ impl Track {
         (self.across_mm - height_mm * self.across_per_camera) / self.weight
     }
 
+    /// Its shorter side if the rim is at this height.
+    pub fn narrowest_mm(&self, height_mm: f64) -> f64 {
+        self.diameter_mm(height_mm) * self.narrowness.unwrap_or(1.0)
+    }
+
+    /// Whether both are round, or rectangles with sides in about the same ratio.
+    fn is_shaped_as(&self, other: &Self, most: f64) -> bool {
+        match (self.narrowness, other.narrowness) {
+            (None, None) => true,
+            (Some(a), Some(b)) => (a / b).ln().abs() <= most * self.relative_sigma().hypot(other.relative_sigma()),
+            (None, Some(_)) | (Some(_), None) => false,
+        }
+    }
+
     /// Relative standard uncertainty of the mean diameter.
     #[expect(clippy::cast_precision_loss, reason = "some thousand images")]
     fn relative_sigma(&self) -> f64 {
@@ -102,6 +121,9 @@ impl Track {
     /// hardly matters then, since it makes both wrong alike. Whether it is a plate or a bowl is left open; what is unlikely by
     /// the looks of both costs as much as it is unlikely.
     pub fn unlike(&self, other: &Self, most: f64) -> Option<f64> {
+        if !self.is_shaped_as(other, most) {
+            return None;
+        }
         let mut both = self.together.clone();
         both.append(&other.together);
         let looks = both.looks()?;

@@ -23,6 +23,7 @@ use serde::Deserialize;
 
 pub use camera::SceneCamera;
 
+use super::plan::Plan;
 use super::sensors::SensorErrors;
 use super::write::Laid;
 use crate::error::SimulateError;
@@ -122,6 +123,16 @@ impl SceneSpec {
             scene: Some(text),
         };
         laid.write(out, progress)
+    }
+
+    /// Its sessions, for pictures of this width: every frame can be photographed and asked for the truth without any file.
+    ///
+    /// # Errors
+    /// [`SimulateError::Scene`] when parts of the file do not go together.
+    pub fn plans(&self, seed: u64, width_px: u32) -> Result<Vec<Plan>, SimulateError> {
+        self.check()?;
+        let planner = Planner::new(self, seed, width_px);
+        Ok((0..self.sessions.len()).map(|number| planner.plan(number)).collect())
     }
 
     /// Plates, bowls and boxes in their order.

@@ -21,6 +21,7 @@ fn rim(at_s: i64, across_mm: f64, at_mm: [f64; 2]) -> Sighting {
         image: usize::try_from(at_s).unwrap_or(0),
         time: UtcNs(at_s * 1_000_000_000),
         across_mm,
+        narrowness: None,
         relative_sigma: 0.03,
         camera_mm: CAMERA_MM,
         at_mm,
@@ -81,6 +82,13 @@ fn sizes_are_compared_at_the_height_of_the_rim() {
 fn other_sizes_are_others() {
     let seen = [rim(0, 150.0, [0.0, 300.0]), rim(10, 190.0, [0.0, 300.0]), rim(20, 240.0, [0.0, 300.0])];
     assert_eq!(numbers(&seen), [1, 2, 3]);
+}
+
+#[test]
+fn rectangles_are_told_apart_by_both_sides_and_from_what_is_round() {
+    let plate = |at_s, narrowness| Sighting { narrowness, ..rim(at_s, 200.0, [0.0, 300.0]) };
+    let seen = [plate(0, Some(0.75)), plate(10, Some(0.76)), plate(20, Some(0.95)), plate(30, None)];
+    assert_eq!(numbers(&seen), [1, 1, 2, 3]);
 }
 
 #[test]
