@@ -24,4 +24,5 @@ mod project;
 mod published_bench;
 mod real;
 mod scene;
+mod squares;
 mod support;
