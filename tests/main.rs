@@ -25,4 +25,5 @@ mod project;
 mod published_bench;
 mod real;
 mod scene;
+mod squares;
 mod support;

@@ -8,6 +8,7 @@ mod auto;
 mod boards;
 mod discs;
 mod rims;
+mod squares;
 mod study;
 
 use std::path::PathBuf;

@@ -42,6 +42,9 @@ const LEAST_COVERAGE: f64 = 0.55;
 const MOST_BEYOND: f64 = 0.35;
 /// Chance shows fewer than a hundredth of such rectangles in a picture.
 const MOST_FALSE_ALARMS_LOG10: f64 = -2.0;
+/// Lines within that are below the rim are seen along so much more of the sides than lines on its level would be: else they are
+/// a printed border.
+const LEAST_RAISED: f64 = 0.05;
 /// As many, the likeliest, are followed through the full picture.
 const MOST_FOLLOWED: usize = 24;
 /// Fits whose corners are nearer to each other than this share of half the way across are one.
@@ -99,7 +102,8 @@ fn scored(edges: &[GroundEdge], quad: &Quad) -> Option<Scored> {
         return None;
     }
     let evidence = SquareEvidence::of(&support, &Levels::of(&quad, &near));
-    (evidence.false_alarms_log10 < MOST_FALSE_ALARMS_LOG10).then_some(Scored {
+    let is_raised = evidence.below >= evidence.level.max(evidence.above) + LEAST_RAISED;
+    (is_raised && evidence.false_alarms_log10 < MOST_FALSE_ALARMS_LOG10).then_some(Scored {
         quad,
         evidence,
         confidence: evidence.confidence(),
