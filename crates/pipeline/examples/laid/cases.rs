@@ -15,6 +15,8 @@ const PLACES: u32 = 180;
 /// What there is to draw of a container: the true circle in the picture, and the points that were found along it.
 pub struct Drawing {
     true_px: Vec<[f64; 2]>,
+    /// Centre (world X, Y) and radius of the circle that the rim appears as on the plane Z = 0, in mm.
+    true_on_table_mm: ([f64; 2], f64),
     found: Option<Value>,
 }
 
@@ -36,7 +38,12 @@ impl Drawing {
                 "on_table_mm": rim.on_table_mm,
             })
         });
-        Self { true_px: circle.map(|p| pair(&p)).collect(), found }
+        let shrink = 1.0 - truth.rim_level_mm / view.pose().camera_height_mm();
+        Self {
+            true_px: circle.map(|p| pair(&p)).collect(),
+            true_on_table_mm: ([truth.center_x_mm / shrink, truth.center_y_mm / shrink], radius / shrink),
+            found,
+        }
     }
 }
 
@@ -58,6 +65,7 @@ fn line(case: &Case, picture: &str) -> Value {
         "height_error": case.found.map(|found| found.height),
         "height_sigmas": case.found.map(|found| found.height_sigmas),
         "true_px": case.drawing.true_px,
+        "true_on_table_mm": case.drawing.true_on_table_mm,
         "found": case.drawing.found,
     })
 }
