@@ -23,10 +23,11 @@ pub struct Drawing {
 impl Drawing {
     pub fn new(rim: Option<&Rim>, truth: &Truth, view: &View) -> Self {
         let radius = 0.5 * truth.true_diameter_mm.unwrap_or(0.0);
-        let circle = (0..PLACES).map(|i| f64::from(i) / f64::from(PLACES) * std::f64::consts::TAU).filter_map(|angle| {
-            let (x, y) = (truth.center_x_mm + radius * angle.cos(), truth.center_y_mm + radius * angle.sin());
-            view.pixel_of(Point3::new(x, y, truth.rim_level_mm)).ok()
-        });
+        let circle =
+            (0..PLACES).map(|i| f64::from(i) / f64::from(PLACES) * std::f64::consts::TAU).filter_map(|angle| {
+                let (x, y) = (truth.center_x_mm + radius * angle.cos(), truth.center_y_mm + radius * angle.sin());
+                view.pixel_of(Point3::new(x, y, truth.rim_level_mm)).ok()
+            });
         let pair = |p: &Point2<f64>| [(10.0 * p.x).round() / 10.0, (10.0 * p.y).round() / 10.0];
         let found = rim.map(|rim| {
             json!({

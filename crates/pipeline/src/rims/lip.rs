@@ -41,9 +41,16 @@ const SEEN: f64 = 0.35;
 const AS_SEEN: f64 = 0.4;
 /// Odds (logarithm) beyond this count as this.
 const MOST_ODDS: f64 = 3.0;
-/// A round circle that is seen as well as this is not looked at for an oval; and an oval one must be seen so much better.
+/// If round circles are seen as well as this, oval ones are not looked at; and those must be seen so much better.
 const WELL_SEEN: f64 = 0.75;
 const BETTER_SEEN: f64 = 0.1;
+
+/// The edge of a rim, and how well the circle is seen that is seen best.
+#[derive(Clone, Copy)]
+struct Outer {
+    edge: Edge,
+    best_seen: f64,
+}
 
 /// The same circle moved to the outer edge of the rim; as it was where none is clear.
 pub(super) fn outer_edge(picture: &Picture, view: &View, arc: Arc, factor: usize) -> Arc {
@@ -52,28 +59,30 @@ pub(super) fn outer_edge(picture: &Picture, view: &View, arc: Arc, factor: usize
     let px_mm = unit_px * std::f64::consts::TAU * arc.disc.radius / full_px.max(1.0);
     let round = Arc { oval: [0.0; 2], ..arc.clone() };
     let of_round = best_edge(picture, view, &round, px_mm);
-    if of_round.is_some_and(|edge| edge.seen >= WELL_SEEN) || arc.oval == round.oval {
-        return of_round.map_or(arc, |edge| shifted(round, edge.moved * px_mm));
+    let move_to = |from: Arc, outer: Outer| shifted(from, outer.edge.moved * px_mm);
+    match of_round {
+        Some(outer) if outer.best_seen >= WELL_SEEN || arc.oval == round.oval => return move_to(round, outer),
+        _ => {}
     }
     match (of_round, best_edge(picture, view, &arc, px_mm)) {
-        (Some(edge), Some(oval)) if oval.seen < edge.seen + BETTER_SEEN => shifted(round, edge.moved * px_mm),
-        (_, Some(oval)) => shifted(arc, oval.moved * px_mm),
-        (Some(edge), None) => shifted(round, edge.moved * px_mm),
+        (Some(outer), Some(oval)) if oval.best_seen < outer.best_seen + BETTER_SEEN => move_to(round, outer),
+        (_, Some(oval)) => move_to(arc, oval),
+        (Some(outer), None) => move_to(round, outer),
         (None, None) => arc,
     }
 }
 
 /// The outer edge of the rim near a circle.
-fn best_edge(picture: &Picture, view: &View, arc: &Arc, px_mm: f64) -> Option<Edge> {
+fn best_edge(picture: &Picture, view: &View, arc: &Arc, px_mm: f64) -> Option<Outer> {
     let radius_px = arc.disc.radius / px_mm;
     let furthest_px = (OUTWARD * radius_px).min(THICKEST_MM / px_mm);
     // A little more on both sides, for centres that move, and the rings' surroundings.
     let (inward_px, outward_px) = (1.5 * INWARD * radius_px + 4.0, furthest_px + TABLE_PX.1 + 4.0);
     let rays = rays(picture, view, arc, Span { inward_px, outward_px, px_mm });
     let edges = edges(&rays, radius_px, furthest_px);
-    let most = edges.iter().map(|edge| edge.seen).fold(0.0, f64::max);
-    let edges: Vec<Edge> = edges.into_iter().filter(|edge| edge.seen >= SEEN.max(AS_SEEN * most)).collect();
-    likeliest(&rays, &edges)
+    let best_seen = edges.iter().map(|edge| edge.seen).fold(0.0, f64::max);
+    let edges: Vec<Edge> = edges.into_iter().filter(|edge| edge.seen >= SEEN.max(AS_SEEN * best_seen)).collect();
+    likeliest(&rays, &edges).map(|edge| Outer { edge, best_seen })
 }
 
 /// All circles that edges lie along.
@@ -103,14 +112,11 @@ fn edges(rays: &[Ray], radius_px: f64, furthest_px: f64) -> Vec<Edge> {
 #[expect(clippy::cast_precision_loss, reason = "directions")]
 fn seen(rays: &[Ray], moved: &Moved, showing: usize) -> f64 {
     let share = |further_px: f64| {
-        let is_along =
-            |ray: &&Ray| ray.nearest(at_px(ray, moved) + further_px).is_some_and(|off| off.abs() < ALONG_PX);
+        let is_along = |ray: &&Ray| ray.nearest(at_px(ray, moved) + further_px).is_some_and(|off| off.abs() < ALONG_PX);
         rays.iter().filter(is_along).count() as f64 / showing as f64
     };
-    let chance = (0..10)
-        .map(|i| share(TABLE_PX.0 + (TABLE_PX.1 - TABLE_PX.0) * f64::from(i) / 9.0))
-        .sum::<f64>()
-        / 10.0;
+    let chance =
+        (0..10).map(|i| share(TABLE_PX.0 + (TABLE_PX.1 - TABLE_PX.0) * f64::from(i) / 9.0)).sum::<f64>() / 10.0;
     (share(0.0) - chance) / (1.0 - chance).max(0.05)
 }
 

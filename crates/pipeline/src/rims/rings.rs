@@ -49,7 +49,8 @@ pub(super) fn odds(rays: &[Ray], inner: &Edge, outer: &Edge) -> Option<f64> {
 }
 
 fn likeness(rays: &[Ray], inner: &Moved, outer: &Moved) -> Option<Likeness> {
-    let told: Vec<[f64; 2]> = rays.iter().filter_map(|ray| compared(ray, at_px(ray, inner), at_px(ray, outer))).collect();
+    let told: Vec<[f64; 2]> =
+        rays.iter().filter_map(|ray| compared(ray, at_px(ray, inner), at_px(ray, outer))).collect();
     if told.len() < LEAST_DIRECTIONS {
         return None;
     }
