@@ -82,9 +82,9 @@ const AS_STRONG: f64 = 0.35;
 /// Neighbouring places are not independent: what they say counts this much.
 const INDEPENDENT: f64 = 0.3;
 /// Share of what is taken for a foot or floor that is none, of bowls and of plates: a plate hides its foot, and prints and food
-/// look like its well. Those of plates make the uncertainties of 193 rendered plates honest (docs/rims.md, seeds 11 to 13).
+/// look like its well. With that of plates their uncertainties are honest on rendered tables (docs/rims.md, seeds 11 to 13).
 const MISTAKEN: f64 = 0.15;
-const MISTAKEN_OF_PLATES: f64 = 0.45;
+const MISTAKEN_OF_PLATES: f64 = 0.25;
 /// Edges that speak for a plate or a bowl are not independent: the logarithm of their odds is so much too large (346 rendered
 /// containers of the same seeds).
 const TOO_SURE_OF_KIND: f64 = 3.0;

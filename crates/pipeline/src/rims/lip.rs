@@ -43,8 +43,6 @@ const AS_SEEN: f64 = 0.4;
 const MOST_ODDS: f64 = 3.0;
 /// Round circles are taken if the best of them is seen in so much more of the directions than the best oval one.
 const BETTER_SEEN: f64 = 0.05;
-/// An oval that differs from a circle by less, in pixels, is round.
-const OVAL_PX: f64 = 0.25;
 
 /// The edge of a rim, and how well the circle is seen that is seen best.
 #[derive(Clone, Copy)]
@@ -61,9 +59,7 @@ pub(super) fn outer_edge(picture: &Picture, view: &View, arc: Arc, factor: usize
     let round = Arc { oval: [0.0; 2], ..arc.clone() };
     let of_round = best_edge(picture, view, &round, px_mm);
     let move_to = |from: Arc, outer: Outer| shifted(from, outer.edge.moved * px_mm);
-    let is_round = arc.oval[0].hypot(arc.oval[1]) < OVAL_PX * px_mm;
-    let of_oval = if is_round { None } else { best_edge(picture, view, &arc, px_mm) };
-    match (of_round, of_oval) {
+    match (of_round, best_edge(picture, view, &arc, px_mm)) {
         (Some(outer), Some(oval)) if oval.best_seen > outer.best_seen - BETTER_SEEN => move_to(arc, oval),
         (Some(outer), _) => move_to(round, outer),
         (None, Some(oval)) => move_to(arc, oval),
