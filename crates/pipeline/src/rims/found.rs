@@ -3,7 +3,7 @@
 use model::{Kind, Shape};
 use serde::{Deserialize, Serialize};
 
-use super::{Rim, RimHeight};
+use super::{Rim, RimHeight, as_judged};
 
 /// What finding a rim told of it. A file of marks keeps it beside the points, so that a rim measures the same when it is read
 /// from there.
@@ -35,11 +35,12 @@ fn is_circle(shape: &Shape) -> bool {
 }
 
 impl Rim {
-    /// What is known of it besides its points.
+    /// What is known of it besides its points, as for its only picture.
     #[must_use]
     pub fn found(&self) -> Found {
-        let Self { kind, confidence, perimeter_px, height, plate_height, .. } = *self;
+        let Self { kind, confidence, perimeter_px, .. } = *self;
         let shape = self.shape();
+        let (plate_height, height) = as_judged(self.plate_height, self.height, self.plate_log_odds);
         Found { kind, shape, confidence, perimeter_px, height, plate_height: Some(plate_height) }
     }
 }

@@ -6,7 +6,7 @@ use super::Seen;
 use super::link::containers;
 use super::track::Sighting;
 use crate::labelme::AutoRim;
-use crate::rims::Found;
+use crate::rims::{Found, as_judged};
 use crate::study::FOUND;
 
 /// The rims by image, named: one container, one name, what it is by all of its images. Numbers go from 1 in the order in which
@@ -22,10 +22,11 @@ pub(super) fn named(seen: Vec<Seen>, taken: &BTreeSet<u32>, least_diameter_mm: f
         if !is_wide {
             continue;
         }
+        let (plate_height, height) = as_judged(looks.plate, looks.bowl, looks.plate_log_odds);
         let name = format!("{FOUND}{}", free.next().unwrap_or(u32::MAX));
         for member in track.members {
             let own = seen[member].rim.found;
-            let found = Found { kind, height: looks.bowl, plate_height: Some(looks.plate), ..own };
+            let found = Found { kind, height, plate_height: Some(plate_height), ..own };
             decided[member] = Some((name.clone(), found));
         }
     }
