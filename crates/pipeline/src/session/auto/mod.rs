@@ -153,7 +153,9 @@ impl Search<'_> {
             at_mm: rim.on_table_mm.0.map(|c| c * lower),
         };
         let image = frame.image.file.clone();
-        (auto.points_px.len() >= rims::LEAST_POINTS).then_some(Seen { image, rim: auto, sighting })
+        // A rectangle is its corners, all four of them.
+        let least = if rim.square.is_some() { 4 } else { rims::LEAST_POINTS };
+        (auto.points_px.len() >= least).then_some(Seen { image, rim: auto, sighting })
     }
 
     fn not_searched(&self, frame: &Frame, fact: String) -> Problem {
