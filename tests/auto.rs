@@ -38,24 +38,24 @@ fn shot(scene: fn(Point2<f64>) -> Scene, pitch_deg: f64, number: u32) -> Shot {
 }
 
 /// A plate in three selected images of session S1, and in one at a pitch that is not selected; a bowl in two of S2.
-fn study() -> StudyFolder {
+pub fn study() -> StudyFolder {
     let study = StudyFolder::new("", OBJECTS, CAMERA);
     study.session("S1", &[shot(plate, 55.0, 0), shot(plate, 53.0, 1), shot(plate, 57.0, 2), shot(plate, 35.0, 3)]);
     study.session("S2", &[shot(bowl, 48.0, 0), shot(bowl, 50.0, 1)]);
     study
 }
 
-struct Ran {
-    output: Output,
-    out: PathBuf,
+pub struct Ran {
+    pub output: Output,
+    pub out: PathBuf,
 }
 
 impl Ran {
-    fn rows(&self) -> Vec<ResultRow> {
+    pub fn rows(&self) -> Vec<ResultRow> {
         report::Results::read(&self.out).unwrap().rows
     }
 
-    fn sessions(&self) -> Vec<SessionStatus> {
+    pub fn sessions(&self) -> Vec<SessionStatus> {
         report::Results::read(&self.out).unwrap().metadata.sessions
     }
 
@@ -66,14 +66,14 @@ impl Ran {
 
 /// Runs with results in a folder beside the study's files; `name` is that of the results.
 #[track_caller]
-fn run(study: &StudyFolder, name: &str, options: &[&str], exit: i32) -> Ran {
+pub fn run(study: &StudyFolder, name: &str, options: &[&str], exit: i32) -> Ran {
     let out = study.path().join(format!("out/{name}.parquet"));
     let output = aim_batch().arg("run").arg(study.path()).arg("--out").arg(&out).args(options).output().unwrap();
     assert_exit(&output, exit);
     Ran { output, out }
 }
 
-fn by_ray(rows: &[ResultRow], level: Level, quantity: Quantity) -> Vec<ResultRow> {
+pub fn by_ray(rows: &[ResultRow], level: Level, quantity: Quantity) -> Vec<ResultRow> {
     let is_one = |row: &&ResultRow| row.method == Method::Ray && row.level == level && row.quantity == quantity;
     rows.iter().filter(is_one).cloned().collect()
 }
@@ -180,7 +180,7 @@ fn rims_are_on_the_pictures_that_people_mark() {
 }
 
 /// The largest chunk holds pictures: a byte in the last third of the file is one of theirs.
-fn damage(recording: &Path) {
+pub fn damage(recording: &Path) {
     let mut bytes = std::fs::read(recording).unwrap();
     let at = bytes.len() * 2 / 3;
     bytes[at] ^= 0xff;

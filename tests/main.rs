@@ -20,6 +20,7 @@ mod layers;
 mod marks;
 mod measure;
 mod methods;
+mod names;
 mod project;
 mod published_bench;
 mod real;

@@ -73,10 +73,9 @@ impl Camera {
     /// # Errors
     /// [`CameraError::EmptyPicture`] where a side is zero.
     pub fn resampled(&self, size_px: [u32; 2]) -> Result<Self, CameraError> {
-        let [sx, sy] = [0, 1].map(|axis| f64::from(size_px[axis]) / f64::from(self.size_px[axis]));
-        let [(fx, fy), (cx, cy)] = [self.focal_px, self.principal_px].map(|[x, y]| (x, y));
-        // (0, 0) is the centre of the first pixel: the corner of the picture stays, and lies half a pixel before it.
-        let principal_px = [(cx + 0.5) * sx - 0.5, (cy + 0.5) * sy - 0.5];
+        let [sx, sy] = shares(self.size_px, size_px);
+        let [fx, fy] = self.focal_px;
+        let principal_px = resampled_px(self.principal_px, self.size_px, size_px);
         // The lens works in focal lengths, and does not know of pixels.
         Self::new(size_px, [fx * sx, fy * sy], principal_px, self.skew_px * sx, self.lens)
     }
@@ -168,4 +167,16 @@ impl Camera {
         );
         if pixel.iter().all(|c| c.is_finite()) { Ok(pixel) } else { Err(LensError::NotFinite) }
     }
+}
+/// Where a point of a picture of `from_px` is in its copy resampled to `to_px`, each axis by itself.
+///
+/// (0, 0) is the centre of the first pixel: the corner of the picture stays its corner, and lies half a pixel before it.
+#[must_use]
+pub fn resampled_px(point_px: [f64; 2], from_px: [u32; 2], to_px: [u32; 2]) -> [f64; 2] {
+    let shares = shares(from_px, to_px);
+    [0, 1].map(|axis| (point_px[axis] + 0.5) * shares[axis] - 0.5)
+}
+
+fn shares(from_px: [u32; 2], to_px: [u32; 2]) -> [f64; 2] {
+    [0, 1].map(|axis| f64::from(to_px[axis]) / f64::from(from_px[axis]))
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix4, Vector3};
 
-use crate::codes::coded_enum;
-use crate::container::{Method, Quantity, Wall};
+use crate::container::{Method, Quantity};
+use crate::doubt::{Doubt, tells_slope, wall_doubt, wall_slope};
 use crate::marks::ObjectMarks;
 use crate::measure::{Container, MeasureError, Measured, Sized, sizes, view_of_method};
 use crate::source::{PerSource, Source, SourceCovariance};
@@ -208,15 +208,6 @@ impl SizeSigma {
     }
 }
 
-coded_enum! {
-    /// An assumption of a method that is broken, or that nobody knows to hold. The stated uncertainty leaves it out.
-    Doubt {
-        PaperApproximation = "paper_approximation": "the paper's equations leave out the roll and the rays off the axis, and differ from the exact ones by more than 0.3 of the uncertainty",
-        WallSloped = "wall_sloped": "the method takes the wall as vertical, and it is not",
-        WallAssumedVertical = "wall_assumed_vertical": "the method takes the wall as vertical, and nobody said how it stands",
-    }
-}
-
 /// A size with its uncertainty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
@@ -264,33 +255,6 @@ pub fn estimate(
 
 /// A bias of this share of the standard uncertainty lowers the coverage of a 95 % interval by 1 percentage point.
 const NEGLIGIBLE: f64 = 0.3;
-/// A wall that gains more radius than this per height is sloped.
-const SLOPED: f64 = 0.05;
-
-/// Whether the method needs to be told how the wall stands.
-fn tells_slope(method: Method) -> bool {
-    matches!(method, Method::Paper | Method::Ray)
-}
-
-/// How the wall stands as far as outlines of rim and base show it.
-fn wall_slope(view: &View, container: &Container, marks: &ObjectMarks) -> Option<f64> {
-    let found = sizes(view, Method::Coaxial, container, marks);
-    found.into_iter().find_map(|(_, size)| size.ok()?.wall_slope)
-}
-
-fn wall_doubt(method: Method, container: &Container, quantity: Quantity, slope: Option<f64>) -> Option<Doubt> {
-    let needs_wall = quantity == Quantity::Height || container.rim_plane_is_measured();
-    if !tells_slope(method) || !needs_wall {
-        return None;
-    }
-    match (container.known_wall(), slope) {
-        (Some(Wall::Vertical), _) => None,
-        (Some(Wall::Sloped), _) => Some(Doubt::WallSloped),
-        (None, Some(slope)) if slope.abs() > SLOPED => Some(Doubt::WallSloped),
-        (None, _) => Some(Doubt::WallAssumedVertical),
-    }
-}
-
 fn size_mm(sizes: &[(Quantity, Result<Sized, MeasureError>)], wanted: Quantity) -> Option<f64> {
     let (_, size) = sizes.iter().find(|(quantity, _)| *quantity == wanted)?;
     Some(size.as_ref().ok()?.measured.predicted_mm)

@@ -3,15 +3,18 @@
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use model::{Feature, Mark, ObjectMarks, Quantity};
 use nalgebra::Point2;
 use serde::Deserialize;
 
 use crate::rims::Found;
+pub(crate) use error::MARKS_UNREADABLE;
+pub use error::MarksError;
 pub(crate) use write::{AutoRim, Shape as OutShape, text_of, text_of_shapes};
 
+mod error;
 mod write;
 
 /// Larger than any file of marks (LabelMe may embed the picture itself).
@@ -20,79 +23,6 @@ const LARGEST_FILE_BYTES: u64 = 256 * 1024 * 1024;
 /// The labels that are read, for messages.
 const EXPECTED: &str =
     "OBJECT/diameter, OBJECT/width, OBJECT/length or OBJECT/height as a line, OBJECT/rim or OBJECT/base as a polygon";
-
-/// Why a file, or one shape of it, gives no marks.
-#[derive(Debug, thiserror::Error)]
-pub enum MarksError {
-    /// It cannot be read.
-    #[error("cannot read the file: {source}: {}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// It is too large for marks.
-    #[error("the file has more than {LARGEST_FILE_BYTES} bytes, too many for marks: {}", path.display())]
-    TooLarge {
-        /// The file.
-        path: PathBuf,
-    },
-    /// It is not LabelMe's JSON.
-    #[error("not a LabelMe file: {source}; open it in LabelMe and save it again: {}", path.display())]
-    Malformed {
-        /// The file.
-        path: PathBuf,
-        /// Why, with line and column.
-        source: serde_json::Error,
-    },
-    /// The picture that was marked has another size than the camera's.
-    #[error(
-        "marked on a picture of {got_width} x {got_height} px, but the camera's are {width} x {height}: mark the original \
-         pictures, or name the camera of the marked ones ([marks] camera in study.toml): {}", path.display()
-    )]
-    OtherPicture {
-        /// The file.
-        path: PathBuf,
-        /// Width that the file gives.
-        got_width: u32,
-        /// Height that the file gives.
-        got_height: u32,
-        /// Width of the camera's pictures.
-        width: u32,
-        /// Height of the camera's pictures.
-        height: u32,
-    },
-    /// One of its shapes.
-    #[error("shape {number} ('{label}'): {fact}: {}", path.display())]
-    Shape {
-        /// The file.
-        path: PathBuf,
-        /// Number of the shape, from 1.
-        number: usize,
-        /// Its label.
-        label: String,
-        /// What is wrong: expected and got.
-        fact: String,
-    },
-}
-
-impl MarksError {
-    /// Stable code, for the status of a session.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Unreadable { .. } => MARKS_UNREADABLE,
-            Self::TooLarge { .. } => "marks_too_large",
-            Self::Malformed { .. } => "marks_malformed",
-            Self::OtherPicture { .. } => "marks_of_other_picture",
-            Self::Shape { .. } => "bad_mark",
-        }
-    }
-}
-
-/// The system does not let marks be read.
-pub(crate) const MARKS_UNREADABLE: &str = "marks_unreadable";
 
 /// What one file holds.
 #[derive(Debug, Default)]

@@ -30,7 +30,7 @@ mod write_report;
 pub use atomic::{FileError, write as write_file};
 pub use compare::{CompareError, Comparison, Difference, compare};
 pub use figure::Figure;
-pub use figures::{FigureLeftOut, Figures, figures, flow_bars, write_figures};
+pub use figures::{FigureError, FigureLeftOut, Figures, figures, flow_bars, write_figures};
 pub use page::{Page, PageError, PictureError, Pictures};
 pub use parquet::{
     ParquetSink, ReadError, Results, SinkError, frames_file, read_frames, read_run_log, read_truth, run_file,

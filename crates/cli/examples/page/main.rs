@@ -37,7 +37,7 @@ fn main() -> anyhow::Result<()> {
     let begun = Instant::now();
     let log = read_run_log(&run_file(&dir.join("results.parquet")), &results.metadata);
     let frames: Vec<_> = made.sessions.iter().flat_map(|(_, frames)| frames.clone()).collect();
-    let figures = figures(&results, &frames);
+    let figures = figures(&results, &frames)?;
     write_figures(&figures, &report)?;
     let page = Page { results: &results, log: log.as_ref(), figures: &figures, pictures: &pictures };
     let file = write_report(&page, &report)?;

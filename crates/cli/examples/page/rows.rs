@@ -1,9 +1,8 @@
 //! Made-up rows.
 
-use model::results::RESULTS_SCHEMA_VERSION;
 use model::{
     FrameReason, FrameRow, Kind, Level, Method, Problem, Quantity, ResultRow, RunLog, RunMetadata, SessionStatus,
-    Severity, Shape, Stage, UtcNs,
+    Severity, Stage, UtcNs,
 };
 
 /// Rows of a study, session by session, with what its results file says of it.
@@ -153,23 +152,13 @@ fn row(study: &str, session: &str, object: &str, rater: &str, level: Level, dice
     let error_pct = 12.0 * (dice.throw() + dice.throw() + dice.throw() - 1.5);
     let predicted_mm = truth_mm * (1.0 + error_pct / 100.0);
     ResultRow {
-        schema_version: RESULTS_SCHEMA_VERSION,
         study: study.to_owned(),
         session: session.to_owned(),
         participant: Some(session.chars().take(4).collect()),
-        object: object.to_owned(),
-        kind: Kind::Plate,
-        shape: Shape::Circle,
-        setup_height_mm: None,
-        setup_pitch_deg: None,
         rater: rater.to_owned(),
-        image: None,
-        time_utc: None,
         pitch_deg: Some(48.0 + 14.0 * dice.throw()),
         roll_deg: Some(4.0 * dice.throw() - 2.0),
         range_mm: Some(480.0 + 200.0 * dice.throw()),
-        quantity: Quantity::Diameter,
-        method: Method::Ray,
         level,
         predicted_mm: Some(predicted_mm),
         sigma_mm: Some(4.0 + 6.0 * dice.throw()),
@@ -181,21 +170,11 @@ fn row(study: &str, session: &str, object: &str, rater: &str, level: Level, dice
         plane_z_mm: Some(0.0),
         truth_mm: Some(truth_mm),
         error_pct: Some(error_pct),
-        selected: true,
         frames: if level == Level::Frame { 1 } else { 6 },
         spread_mm: (level == Level::Fused).then_some(5.0),
         flags: if dice.throw() < 0.1 { "range_step".to_owned() } else { String::new() },
         method_used: Some(Method::Ray),
-        doubts: String::new(),
-        sigma_mount_mm: None,
-        sigma_common_mm: None,
-        wall_slope: None,
-        rank: None,
-        weight: None,
-        chi_squared: None,
-        chi_squared_degrees: None,
-        consistency: None,
-        confidence: None,
+        ..ResultRow::without_numbers(object, Kind::Plate, Quantity::Diameter, Method::Ray)
     }
 }
 

@@ -37,7 +37,7 @@ pub fn write(results: &Results, source: Source<'_>, dir: &Path, bars: &Bars) -> 
     let log = read_run_log(&run_file(source.out), &results.metadata);
     // Without a ledger that belongs to the results there are no figures of images.
     let frames = if results.flow.is_some() { read_frames(&frames_file(source.out))? } else { Vec::new() };
-    let figures = figures(results, &frames);
+    let figures = figures(results, &frames)?;
     write_figures(&figures, dir)?;
     let mut pictures = Pictures::new(dir);
     let progress = bars.for_run();

@@ -110,8 +110,11 @@ fn tell_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
 fn tell_annotated(annotated: &Annotated, format: LogFormat) {
     let Annotated { folder, made, kept, failed } = annotated;
     if format == LogFormat::Json {
+        for NotAnnotated { session, fact } in failed {
+            tracing::warn!(session, "no annotated recording: {fact}");
+        }
         tracing::info!(made, kept, failed = failed.len(), "annotated recordings, in {}", folder.display());
-        return; // why some failed has been an event already
+        return;
     }
     tell(&format!("annotated recordings: {made} written, {kept} unchanged in {}\n", folder.display()));
     for NotAnnotated { session, fact } in failed {

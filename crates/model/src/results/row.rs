@@ -166,6 +166,59 @@ schema! {
     }
 }
 
+impl ResultRow {
+    /// A row of level frame, of something round and selected, without any number: to start from where only some columns
+    /// matter, as in tests and examples. The names of study, session and rater are empty.
+    #[must_use]
+    pub fn without_numbers(object: &str, kind: Kind, quantity: Quantity, method: Method) -> Self {
+        Self {
+            schema_version: RESULTS_SCHEMA_VERSION,
+            study: String::new(),
+            session: String::new(),
+            participant: None,
+            object: object.to_owned(),
+            kind,
+            shape: Shape::Circle,
+            setup_height_mm: None,
+            setup_pitch_deg: None,
+            rater: String::new(),
+            image: None,
+            time_utc: None,
+            pitch_deg: None,
+            roll_deg: None,
+            range_mm: None,
+            quantity,
+            method,
+            level: Level::Frame,
+            predicted_mm: None,
+            sigma_mm: None,
+            sigma_pitch_mm: None,
+            sigma_roll_mm: None,
+            sigma_range_mm: None,
+            sigma_marks_mm: None,
+            sigma_camera_mm: None,
+            plane_z_mm: None,
+            truth_mm: None,
+            error_pct: None,
+            selected: true,
+            frames: 1,
+            spread_mm: None,
+            flags: String::new(),
+            method_used: None,
+            doubts: String::new(),
+            sigma_mount_mm: None,
+            sigma_common_mm: None,
+            wall_slope: None,
+            rank: None,
+            weight: None,
+            chi_squared: None,
+            chi_squared_degrees: None,
+            consistency: None,
+            confidence: None,
+        }
+    }
+}
+
 impl FrameRow {
     /// A row of an image of which nothing but its name and its reason is known.
     #[must_use]

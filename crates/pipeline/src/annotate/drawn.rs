@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use ingest::{ImageNotes, MarkNote, Picture};
-use model::{Mark, ObjectMarks, ResultRow, Shape, View};
+use model::{Mark, ObjectMarks, ResultRow, Shape, View, resampled_px};
 use nalgebra::Point2;
 
 use crate::overlay::{Drawn, draw};
@@ -18,14 +18,15 @@ pub(super) fn drawn(notes: &ImageNotes<'_>, jpeg: &[u8]) -> Result<Vec<u8>, Stri
     if let Some(view) = &notes.view {
         let size_px = [picture.width_px, picture.height_px];
         let camera = view.camera().resampled(size_px).map_err(|error| error.to_string())?;
-        let shares = [0, 1].map(|axis| f64::from(size_px[axis]) / f64::from(view.camera().size_px()[axis]));
-        draw(&mut picture, &View::new(camera, *view.pose()), &objects(notes, shares));
+        let whole_px = view.camera().size_px();
+        let place = |point| Point2::from(resampled_px(point, whole_px, size_px));
+        draw(&mut picture, &View::new(camera, *view.pose()), &objects(notes, place));
     }
     picture.to_jpeg(QUALITY).map_err(|error| error.to_string())
 }
 
 /// All raters of an object together: their sizes are written below each other.
-fn objects(notes: &ImageNotes<'_>, shares: [f64; 2]) -> Vec<Drawn> {
+fn objects(notes: &ImageNotes<'_>, place: impl Fn([f64; 2]) -> Point2<f64>) -> Vec<Drawn> {
     let mut by_object: BTreeMap<&str, Vec<&MarkNote>> = BTreeMap::new();
     for mark in &notes.marks {
         by_object.entry(&mark.object).or_default().push(mark);
@@ -39,7 +40,7 @@ fn objects(notes: &ImageNotes<'_>, shares: [f64; 2]) -> Vec<Drawn> {
             plane_z_mm: marks.iter().filter_map(|mark| mark.plane_z_mm).fold(0.0, f64::max),
             marks: ObjectMarks {
                 object: object.to_owned(),
-                marks: marks.into_iter().filter_map(|mark| resampled(mark, shares)).collect(),
+                marks: marks.into_iter().filter_map(|mark| resampled(mark, &place)).collect(),
             },
             text: std::iter::once(object.to_owned())
                 .chain(of_object.filter_map(|row| line(row, raters.len() > 1)))
@@ -50,9 +51,8 @@ fn objects(notes: &ImageNotes<'_>, shares: [f64; 2]) -> Vec<Drawn> {
 }
 
 /// A line has two ends, a curve more.
-fn resampled(mark: &MarkNote, shares: [f64; 2]) -> Option<Mark> {
-    let at = |[x, y]: [f64; 2]| Point2::new((x + 0.5) * shares[0] - 0.5, (y + 0.5) * shares[1] - 0.5);
-    let points_px: Vec<Point2<f64>> = mark.points_px.iter().copied().map(at).collect();
+fn resampled(mark: &MarkNote, place: impl Fn([f64; 2]) -> Point2<f64>) -> Option<Mark> {
+    let points_px: Vec<Point2<f64>> = mark.points_px.iter().copied().map(place).collect();
     match points_px.as_slice() {
         [] => None,
         // Of a line only its ends are drawn, whatever they measure.

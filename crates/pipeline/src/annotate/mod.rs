@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ingest::{AnnotateError, Annotating, ByteBudget, ImageEntry, SessionReader};
-use model::{Camera, Stage};
+use model::{Camera, SessionStatus, Stage};
 
 use crate::inputs::sha256_of_bytes;
 use crate::reporter::{Reporter, Totals};
@@ -130,15 +130,25 @@ impl All<'_> {
         let done = unless_panicking(dir, &stage, || self.annotated(dir));
         let failed = |fact: String| {
             let fact = without_host(&fact, self.study, &self.work.mcap_dir);
-            tracing::warn!(session = dir.name, "no annotated recording: {fact}");
             Outcome::Failed(NotAnnotated { session: dir.name.clone(), fact })
         };
-        match done {
+        let outcome = match done {
             Ok(Ok(outcome)) => outcome,
             Ok(Err(Trouble::Annotate(AnnotateError::Stopped))) => Outcome::Stopped,
             Ok(Err(trouble)) => failed(trouble.to_string()),
             Err(problem) => failed(problem.fact),
+        };
+        if !matches!(outcome, Outcome::Stopped) {
+            self.reporter.done(&self.status(dir, &outcome));
         }
+        outcome
+    }
+
+    /// How the session fared in the run, for the progress: one whose file is kept, or cannot be made, is done as well.
+    fn status(&self, dir: &SessionDir, outcome: &Outcome) -> SessionStatus {
+        let of_run = self.kept.get(&dir.name).and_then(|kept| kept.status.clone());
+        let status = of_run.unwrap_or_else(|| SessionStatus { session: dir.name.clone(), ..SessionStatus::default() });
+        SessionStatus { failed: status.failed || matches!(outcome, Outcome::Failed(_)), ..status }
     }
 
     fn annotated(&self, dir: &SessionDir) -> Result<Outcome, Trouble> {
@@ -155,7 +165,6 @@ impl All<'_> {
         let output: SessionOutput = serde_json::from_str(&text)?;
         drop(text);
         self.write(dir, &output, &key, &out)?;
-        self.reporter.done(&output.status);
         Ok(Outcome::Made)
     }
 

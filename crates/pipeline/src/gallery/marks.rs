@@ -1,7 +1,7 @@
 //! Marks carried from one picture to another.
 
 use ingest::Picture;
-use model::GalleryMark;
+use model::{GalleryMark, resampled_px};
 
 use crate::session::{ShownImage, ShownMark, ShownObject};
 
@@ -31,18 +31,12 @@ pub(super) fn placed(shown: &ShownImage, place: impl Fn([f64; 2]) -> Option<[f64
     shown.objects.iter().flat_map(of_object).collect()
 }
 
-/// A place in a picture that was resampled from one size to another: its corners stay its corners.
-pub(super) fn scaled([x, y]: [f64; 2], from_px: [u32; 2], to_px: [u32; 2]) -> [f64; 2] {
-    let [sx, sy] = [0, 1].map(|axis| f64::from(to_px[axis]) / f64::from(from_px[axis]));
-    [(x + 0.5) * sx - 0.5, (y + 0.5) * sy - 0.5]
-}
-
 /// The marks in a picture that was resampled.
 pub(super) fn resampled(shown: &ShownImage, from_px: [u32; 2], to_px: [u32; 2]) -> ShownImage {
     let mut resampled = shown.clone();
     let marks: fn(&mut ShownObject) -> &mut Vec<ShownMark> = |object| &mut object.marks;
     for point in resampled.objects.iter_mut().flat_map(marks).flat_map(|mark| &mut mark.points_px) {
-        *point = scaled(*point, from_px, to_px);
+        *point = resampled_px(*point, from_px, to_px);
     }
     resampled
 }

@@ -201,7 +201,6 @@ impl Maker<'_> {
     }
 
     fn not_shown(&mut self, session: &str, image: Option<String>, fact: String) {
-        tracing::warn!(session, image, "no picture: {fact}");
         self.made.not_shown.push(NotShown { session: session.to_owned(), image, fact });
     }
 }

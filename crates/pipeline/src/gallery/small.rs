@@ -1,9 +1,9 @@
 //! The picture as the camera took it, made small.
 
 use ingest::Picture;
-use model::View;
+use model::{View, resampled_px};
 
-use super::marks::{Marked, placed, scaled};
+use super::marks::{Marked, placed};
 use crate::session::ShownImage;
 
 /// The longer side of a picture as it is shown.
@@ -16,6 +16,6 @@ pub(super) fn of(picture: Picture, view: &View, shown: &ShownImage) -> Option<Ma
     let picture = picture.reduced(SIDE_PX);
     let size_px = [picture.width_px, picture.height_px];
     let whole_px = view.camera().size_px();
-    let marks = placed(shown, |point| Some(scaled(point, whole_px, size_px)));
+    let marks = placed(shown, |point| Some(resampled_px(point, whole_px, size_px)));
     (!size_px.contains(&0)).then_some(Marked { picture, marks })
 }

@@ -44,8 +44,8 @@ pub enum HeightSource {
 pub(super) struct Heights {
     pub plate: RimHeight,
     pub bowl: RimHeight,
-    /// How likely a plate is, by all that is seen.
-    pub is_plate: f64,
+    /// Logarithm of the odds of a plate against a bowl, by all that is seen.
+    pub plate_log_odds: f64,
 }
 
 /// What is common below, to the floor and the cups, are estimates of our own, not taken from a survey.
@@ -102,7 +102,7 @@ pub(super) fn of_rim(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Heights {
     let trials = trials(buckets, rim, camera_mm);
     let (plate, plates) = height(&trials, |t| t.plate);
     let (bowl, bowls) = height(&trials, |t| t.bowl);
-    Heights { plate, bowl, is_plate: 1.0 / (1.0 + (bowls - plates).clamp(-500.0, 500.0).exp()) }
+    Heights { plate, bowl, plate_log_odds: plates - bowls }
 }
 
 /// Mean and deviation of the height, and the logarithm of the sum of all that speaks for it.

@@ -57,6 +57,8 @@ pub struct Rim {
     pub confidence: f64,
     /// What it looks like: plates are flat and large.
     pub kind: Kind,
+    /// How sure that is: natural logarithm of the odds of a plate against a bowl.
+    pub plate_log_odds: f64,
     /// Where the centre of the rim appears.
     pub center_px: Point2<f64>,
     /// Points along it, in order, where the picture shows it; of a rectangle its four corners.
@@ -151,12 +153,13 @@ fn in_full(picture: &Picture, view: &View, buckets: &Buckets, found: &Scored, fa
     if points_px.len() < LEAST_POINTS {
         return None;
     }
-    let Heights { plate, bowl, is_plate } = height::of_rim(buckets, &arc, view.pose().camera_height_mm());
+    let Heights { plate, bowl, plate_log_odds } = height::of_rim(buckets, &arc, view.pose().camera_height_mm());
     let evidence = Evidence { sharp, ..found.best };
     Some(Rim {
         confidence: evidence.confidence(),
         evidence,
-        kind: if is_plate >= 0.5 { Kind::Plate } else { Kind::Bowl },
+        kind: if plate_log_odds >= 0.0 { Kind::Plate } else { Kind::Bowl },
+        plate_log_odds,
         center_px: view.pixel_of(Point3::new(arc.disc.x, arc.disc.y, 0.0)).ok()?,
         points_px,
         perimeter_px: arc.perimeter_px * factor as f64,

@@ -10,16 +10,16 @@ use serde::Serialize;
 use crate::calibrate::CalibrationFile;
 use crate::inputs::{sha256_of_bytes, sha256_of_file};
 use crate::rims::{self, RimShape};
-use crate::session::Prepared;
+use crate::session::{AUTO, Prepared};
 use crate::signals::ReadingSettings;
 use crate::study::{
-    MarksSource, MeasureSpec, SelectSpec, SessionDir, SessionSpec, SignalsSpec, Study, TimeSpec, UncertaintySpec,
+    MarksSource, MeasureSpec, Named, SelectSpec, SessionDir, SessionSpec, SignalsSpec, Study, TimeSpec, UncertaintySpec,
 };
 
 /// Version of what the signals stage gives. A change of meaning gives another number, and recordings are read anew.
 const SIGNALS_VERSION: u32 = 1;
 /// Version of what measuring gives, likewise.
-const MEASURE_VERSION: u32 = 4;
+const MEASURE_VERSION: u32 = 5;
 
 #[derive(Serialize)]
 struct SignalsParts<'a> {
@@ -58,6 +58,7 @@ pub(super) struct MeasureParts<'a> {
     calibration: Option<&'a CalibrationFile>,
     marks_camera: &'a CameraSpec,
     objects_csv: &'a str,
+    names: Option<&'a BTreeMap<String, Named>>,
     raters: Vec<&'a str>,
     marks_source: MarksSource,
     search: Option<SearchParts<'a>>,
@@ -104,6 +105,7 @@ impl<'a> MeasureParts<'a> {
             calibration: study.calibration.as_ref(),
             marks_camera: &prepared.marks_camera.0,
             objects_csv,
+            names: study.names.get(&dir.name),
             raters: if source.reads() { dir.marks.keys().map(String::as_str).collect() } else { Vec::new() },
             marks_source: source,
             search: source.searches().then_some(SearchParts {
@@ -133,11 +135,55 @@ impl<'a> MeasureParts<'a> {
 
     /// The key: these settings, and the contents of the marks.
     pub fn key(&self, dir: &SessionDir) -> Result<String, serde_json::Error> {
-        let of_file = |path: &Path| sha256_of_file(path).unwrap_or_else(|error| error.kind().to_string());
         let marks: BTreeMap<String, String> =
-            self.marks_files(dir).into_iter().map(|(name, path)| (name, of_file(&path))).collect();
+            self.marks_files(dir).into_iter().map(|(name, path)| (name, sha256_or_error(&path))).collect();
         hash(&(self, marks))
     }
+}
+
+/// All that a search for rims depends on, and what is made of them: not what they are called, nor how they are measured.
+#[derive(Serialize)]
+struct SearchedParts<'a> {
+    version: u32,
+    program: &'a str,
+    signals_key: &'a str,
+    session: &'a SessionSpec,
+    signals: &'a SignalsSpec,
+    select: &'a SelectSpec,
+    mount_pitch_deg: Option<f64>,
+    uncertainty: &'a UncertaintySpec,
+    calibration: Option<&'a CalibrationFile>,
+    marks_camera: &'a CameraSpec,
+    search: SearchParts<'a>,
+    /// Images that are not searched, and names that are taken: the files of rater auto.
+    checked: BTreeMap<String, String>,
+}
+
+/// Key of a search for rims; none where there is no search.
+pub(super) fn search_key(parts: MeasureParts<'_>, dir: &SessionDir) -> Result<Option<String>, serde_json::Error> {
+    let files = parts.marks_files(dir);
+    let Some(search) = parts.search else { return Ok(None) };
+    let checked = files.into_iter().filter(|(name, _)| name.starts_with(&format!("{AUTO}/")));
+    let parts = SearchedParts {
+        version: parts.version,
+        program: parts.program,
+        signals_key: parts.signals_key,
+        session: parts.session,
+        signals: parts.signals,
+        select: parts.select,
+        mount_pitch_deg: parts.mount_pitch_deg,
+        uncertainty: parts.uncertainty,
+        calibration: parts.calibration,
+        marks_camera: parts.marks_camera,
+        search,
+        checked: checked.map(|(name, path)| (name, sha256_or_error(&path))).collect(),
+    };
+    hash(&parts).map(Some)
+}
+
+/// SHA-256 of a file, or what keeps it from being read.
+fn sha256_or_error(path: &Path) -> String {
+    sha256_of_file(path).unwrap_or_else(|error| error.kind().to_string())
 }
 
 /// SHA-256 of a value as JSON.

@@ -5,6 +5,7 @@ mod error;
 mod keys;
 mod options;
 mod plan;
+mod search;
 mod status;
 mod tally;
 mod worker;

@@ -13,7 +13,7 @@ use crate::inputs::sha256_of_bytes;
 use crate::labelme::MARKS_UNREADABLE;
 use crate::reporter::Reporter;
 use crate::session::{
-    AutoMarks, BAD_MCAP, CardProgress, Prepared, Recording, Search, SearchError, failed, ingest_problem, measure,
+    BAD_MCAP, CardProgress, Prepared, Recording, SearchError, Searched, failed, ingest_problem, measure,
     read_recording, tidy,
 };
 use crate::sessions::unless_panicking;
@@ -37,7 +37,7 @@ pub(super) struct Done {
 }
 
 /// Why a session does not go on.
-enum Trouble {
+pub(super) enum Trouble {
     Session(Box<Problem>),
     Halt(Halted),
     Stopped,
@@ -100,6 +100,7 @@ impl Worker<'_> {
         let parts = self.common.measure_parts(plan.dir, &prepared, &signals_key);
         let fingerprint = parts.fingerprint(plan.dir)?.settled();
         let measure_key = parts.key(plan.dir)?;
+        let search_key = keys::search_key(parts, plan.dir)?;
         let is_kept = |kept: &Option<_>, key: &str| {
             kept.as_ref().is_some_and(|stage: &KeptStage| stage.key == key) && !self.force
         };
@@ -120,8 +121,10 @@ impl Worker<'_> {
             self.work.state.touch(&plan.dir.name, Stage::Ingest, None)?;
         }
         let start = Instant::now();
-        let auto = self.search(plan, &prepared, &recording)?;
+        let auto = self.search(plan, &prepared, &recording, search_key.as_deref())?;
+        let searched = search_key.filter(|_| is_whole).map(|key| Searched { key, problems: auto.problems.clone() });
         let mut output = measure(self.common.study, plan.dir, &prepared, recording, auto, self.reporter);
+        output.searched = searched;
         output.status.problems.extend(changed);
         tidy(&mut output, self.common.study, &self.work.mcap_dir);
         log.measure_s = Some(start.elapsed().as_secs_f64());
@@ -233,25 +236,16 @@ impl Worker<'_> {
     }
 
     /// Makes a damaged recording anew.
-    fn ingest_again(&self, plan: &SessionPlan<'_>, prepared: &Prepared, problem: &Problem) -> Result<(), Trouble> {
+    pub(super) fn ingest_again(
+        &self,
+        plan: &SessionPlan<'_>,
+        prepared: &Prepared,
+        problem: &Problem,
+    ) -> Result<(), Trouble> {
         let start = Instant::now();
         tracing::warn!(session = plan.dir.name, "{}; its card is ingested again", problem.fact);
         let ingested = self.ingest_card(&prepared.source, true)?;
         Ok(self.keep_recording(plan, ingested.key(), None, start.elapsed().as_secs_f64())?)
-    }
-
-    /// Rims in the pictures of the recording, if they are to be found. A recording that is damaged is made again, once.
-    fn search(&self, plan: &SessionPlan<'_>, prepared: &Prepared, recording: &Recording) -> Result<AutoMarks, Trouble> {
-        let mcap = self.mcap(plan);
-        let (study, dir, budget, stop) = (self.common.study, plan.dir, self.budget, self.stop);
-        let search = Search { study, dir, prepared, mcap: &mcap, budget, stop };
-        match search.run(recording) {
-            Err(SearchError::Recording(problem)) => {
-                self.ingest_again(plan, prepared, &problem)?;
-                Ok(search.run(recording)?)
-            }
-            other => Ok(other?),
-        }
     }
 
     fn keep_failed(&self, plan: &SessionPlan<'_>, problem: Problem) -> Result<SessionStatus, Halted> {
@@ -269,7 +263,7 @@ impl Worker<'_> {
         Ok(output.status)
     }
 
-    fn mcap(&self, plan: &SessionPlan<'_>) -> PathBuf {
+    pub(super) fn mcap(&self, plan: &SessionPlan<'_>) -> PathBuf {
         self.work.mcap(&plan.dir.name)
     }
 }

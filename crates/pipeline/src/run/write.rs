@@ -12,7 +12,7 @@ use super::plan::SessionPlan;
 use super::{Halted, RunError, RunOptions, keys};
 use crate::inputs::{sha256_of_bytes, sha256_of_file};
 use crate::session::{SessionOutput, log_problems};
-use crate::study::{SessionDir, Study};
+use crate::study::{NAMES_FILE, SessionDir, Study};
 use crate::work::{WorkFolder, Written};
 
 /// What the results are written from.
@@ -123,6 +123,7 @@ fn settings(study: &Study) -> Result<serde_json::Value, serde_json::Error> {
 /// Hashes of the files that concern the whole study.
 pub(super) fn study_inputs(study: &Study) -> Result<BTreeMap<String, String>, Halted> {
     let mut files = vec!["study.toml".to_owned(), "objects.csv".to_owned()];
+    files.extend(study.dir.join(NAMES_FILE).exists().then(|| NAMES_FILE.to_owned()));
     for printed in study.spec.tables.iter().filter_map(|table| table.printed.as_ref()) {
         files.push(printed.rows.clone());
         files.extend(printed.summaries.clone());

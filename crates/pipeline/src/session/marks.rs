@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use model::{FrameReason, ObjectMarks, Problem, Severity, Stage};
 
 use super::auto::{AUTO, container_of};
+use super::naming::Naming;
 use super::problems::LINK_FACT;
 use super::{Session, SessionOutput, relative};
 use crate::inputs::sha256_of_bytes;
@@ -17,6 +18,7 @@ use crate::study::{Object, Study, marks_in};
 #[derive(Debug, Default)]
 pub(super) struct SessionMarks {
     by_image: BTreeMap<String, BTreeMap<String, Vec<MarkedObject>>>,
+    naming: Naming,
 }
 
 /// The marks of one object on one image, and what is known of it.
@@ -42,7 +44,7 @@ impl MarkedObject {
 impl SessionMarks {
     /// Reads the marks of all raters. What cannot be used becomes a problem; the rest is kept.
     pub(super) fn read(session: &Session<'_>, output: &mut SessionOutput) -> Self {
-        let mut marks = Self::default();
+        let mut marks = Self { naming: Naming::of(session.study, session.dir), ..Self::default() };
         // A bench is measured by what people marked.
         if !(session.study.spec.marks.source.reads() || session.study.is_bench) {
             return marks;
@@ -50,7 +52,7 @@ impl SessionMarks {
         let images = images_by_stem(session);
         for (rater, dir) in &session.dir.marks {
             for file in files_of(session, dir, &mut output.status.problems) {
-                match read_file(session, &images, &file, output) {
+                match marks.read_file(session, &images, &file, output) {
                     Ok(Some((image, objects))) => {
                         let by_rater = marks.by_image.entry(image).or_default();
                         if by_rater.insert(rater.clone(), objects).is_some() {
@@ -65,13 +67,82 @@ impl SessionMarks {
         marks
     }
 
-    /// Adds what the program found, as rater [`AUTO`]. A file of that rater comes first.
-    pub(super) fn add_found(&mut self, study: &Study, by_image: &BTreeMap<String, Vec<AutoRim>>) {
-        for (image, rims) in by_image {
-            let marked = rims.iter().filter_map(|rim| MarkedObject::new(study, rim.marks(), Some(rim.found)).ok());
-            let by_rater = self.by_image.entry(image.clone()).or_default();
-            by_rater.entry(AUTO.to_owned()).or_insert_with(|| marked.collect());
+    /// The image that a file belongs to, and its marks by object; none for an image that was dropped (which is a problem of
+    /// its own).
+    fn read_file(
+        &mut self,
+        session: &Session<'_>,
+        images: &ImagesByStem<'_>,
+        path: &Path,
+        output: &mut SessionOutput,
+    ) -> Result<Option<(String, Vec<MarkedObject>)>, Problem> {
+        let place = relative(session.study, path);
+        let refuse = |error: MarksError| {
+            problem(error.code(), place.clone(), error.to_string(), "correct the marks in LabelMe and run again")
+        };
+        let bytes = labelme::read_bytes(path).map_err(refuse)?;
+        output.inputs_sha256.insert(place.clone(), sha256_of_bytes(&bytes));
+        let marks = labelme::parse(&bytes, path, session.marks_camera.size_px()).map_err(refuse)?;
+        output.status.problems.extend(marks.refused.into_iter().map(refuse));
+        let stem = stem_of(&path.to_string_lossy());
+        match images.get(&stem).map(Vec::as_slice) {
+            None | Some([]) => Err(problem(
+                "marks_without_image",
+                place,
+                format!("the card has no image named {stem}"),
+                "give the file the image's name, or remove it",
+            )),
+            Some([Image { file, dropped: None }]) => {
+                let found = |of: ObjectMarks| {
+                    let found = marks.found.get(&of.object).copied();
+                    (of, found)
+                };
+                let marked = marks.objects.into_iter().map(found).collect();
+                let named = self.naming.named(marked, &place, &mut output.status.problems);
+                Ok(Some(((*file).to_owned(), known_objects(session, named, &place, output))))
+            }
+            Some([Image { dropped: Some(reason), .. }]) => {
+                let fact = format!("its image was dropped: {}", reason.meaning());
+                let remedy = "see the problem of the image itself";
+                output.status.problems.push(problem("marked_image_dropped", place, fact, remedy));
+                Ok(None)
+            }
+            Some(several) => {
+                let files: Vec<_> = several.iter().map(|image| image.file).collect();
+                let fact = format!("several images have this name: {}", files.join(", "));
+                Err(problem(
+                    "ambiguous_marks",
+                    place,
+                    fact,
+                    "rename all but one in the copy of the card, and its marks",
+                ))
+            }
         }
+    }
+
+    /// Adds what the program found, as rater [`AUTO`]. A file of that rater comes first.
+    pub(super) fn add_found(
+        &mut self,
+        session: &Session<'_>,
+        by_image: &BTreeMap<String, Vec<AutoRim>>,
+        problems: &mut Vec<Problem>,
+    ) {
+        for (image, rims) in by_image {
+            let by_rater = self.by_image.entry(image.clone()).or_default();
+            if by_rater.contains_key(AUTO) {
+                continue;
+            }
+            let found = rims.iter().map(|rim| (rim.marks(), Some(rim.found))).collect();
+            let named = self.naming.named(found, &session.place_of(image), problems);
+            let marked =
+                named.into_iter().filter_map(|(marks, found)| MarkedObject::new(session.study, marks, found).ok());
+            by_rater.insert(AUTO.to_owned(), marked.collect());
+        }
+    }
+
+    /// Lines of names.csv that named nothing; `searched`: whether rims were looked for.
+    pub(super) fn unused_names(&self, session: &Session<'_>, searched: bool) -> Vec<Problem> {
+        self.naming.unused(&session.dir.name, searched)
     }
 
     /// Marks on one image, by rater.
@@ -106,47 +177,6 @@ fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> V
     }
 }
 
-/// The image that a file belongs to, and its marks by object; none for an image that was dropped (which is a problem of
-/// its own).
-fn read_file(
-    session: &Session<'_>,
-    images: &ImagesByStem<'_>,
-    path: &Path,
-    output: &mut SessionOutput,
-) -> Result<Option<(String, Vec<MarkedObject>)>, Problem> {
-    let place = relative(session.study, path);
-    let refuse = |error: MarksError| {
-        problem(error.code(), place.clone(), error.to_string(), "correct the marks in LabelMe and run again")
-    };
-    let bytes = labelme::read_bytes(path).map_err(refuse)?;
-    output.inputs_sha256.insert(place.clone(), sha256_of_bytes(&bytes));
-    let marks = labelme::parse(&bytes, path, session.marks_camera.size_px()).map_err(refuse)?;
-    output.status.problems.extend(marks.refused.into_iter().map(refuse));
-    let stem = stem_of(&path.to_string_lossy());
-    match images.get(&stem).map(Vec::as_slice) {
-        None | Some([]) => Err(problem(
-            "marks_without_image",
-            place,
-            format!("the card has no image named {stem}"),
-            "give the file the image's name, or remove it",
-        )),
-        Some([Image { file, dropped: None }]) => {
-            Ok(Some(((*file).to_owned(), known_objects(session, marks.objects, &marks.found, &place, output))))
-        }
-        Some([Image { dropped: Some(reason), .. }]) => {
-            let fact = format!("its image was dropped: {}", reason.meaning());
-            let remedy = "see the problem of the image itself";
-            output.status.problems.push(problem("marked_image_dropped", place, fact, remedy));
-            Ok(None)
-        }
-        Some(several) => {
-            let files: Vec<_> = several.iter().map(|image| image.file).collect();
-            let fact = format!("several images have this name: {}", files.join(", "));
-            Err(problem("ambiguous_marks", place, fact, "rename all but one in the copy of the card, and its marks"))
-        }
-    }
-}
-
 /// An image of the card, used or dropped.
 struct Image<'a> {
     file: &'a str,
@@ -167,14 +197,12 @@ fn images_by_stem<'a>(session: &'a Session<'_>) -> ImagesByStem<'a> {
 
 fn known_objects(
     session: &Session<'_>,
-    marks: Vec<ObjectMarks>,
-    found: &BTreeMap<String, Found>,
+    marks: Vec<(ObjectMarks, Option<Found>)>,
     place: &str,
     output: &mut SessionOutput,
 ) -> Vec<MarkedObject> {
     let (mut known, mut unknown) = (Vec::new(), Vec::new());
-    for marks in marks {
-        let found = found.get(&marks.object).copied();
+    for (marks, found) in marks {
         match MarkedObject::new(session.study, marks, found) {
             Ok(marked) => known.push(marked),
             Err(marks) => unknown.push(marks),

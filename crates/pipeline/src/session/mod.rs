@@ -9,6 +9,7 @@ mod lag;
 mod ledger;
 mod marks;
 mod measurement;
+mod naming;
 mod prepared;
 mod problems;
 mod recording;
@@ -56,12 +57,24 @@ pub(crate) struct SessionOutput {
     /// Rims that the program found itself, by image (file on the card).
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub auto: BTreeMap<String, Vec<AutoRim>>,
+    /// What they came from, where they may serve again.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub searched: Option<Searched>,
     /// What was measured where, for those who show pictures.
     #[serde(default)]
     pub shown: Shown,
     /// Known sizes, where a calibration asks for them.
     #[serde(skip)]
     pub bench: BenchSession,
+}
+
+/// A search for rims that need not be made again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Searched {
+    /// Key of what it was made from.
+    pub key: String,
+    /// Pictures that could not be searched.
+    pub problems: Vec<Problem>,
 }
 
 /// How [`run_session`] treats a session.
@@ -207,7 +220,8 @@ pub(crate) fn measure(
     reporter.stage(&dir.name, Stage::Marks);
     let mut marks = SessionMarks::read(&session, &mut output);
     output.status.problems.extend(auto.problems);
-    marks.add_found(study, &auto.by_image);
+    marks.add_found(&session, &auto.by_image, &mut output.status.problems);
+    output.status.problems.extend(marks.unused_names(&session, auto.searched));
     output.auto = auto.by_image;
     reporter.stage(&dir.name, Stage::Measure);
     let marked = measurement::marked(&session, &marks, &mut output.status.problems);

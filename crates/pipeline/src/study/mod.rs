@@ -3,6 +3,7 @@
 mod csv_file;
 mod error;
 mod marks_source;
+mod names;
 mod objects;
 mod printed;
 mod sessions;
@@ -18,6 +19,8 @@ use model::{Camera, CameraSpec, TableSpec};
 use crate::calibrate::CalibrationFile;
 pub use error::StudyError;
 pub use marks_source::{MarksSource, UnknownMarksSource};
+pub(crate) use names::{FOUND, NAMES_FILE, number_of_found};
+pub use names::{Named, Names};
 pub use objects::Object;
 pub(crate) use sessions::marks_in;
 pub use sessions::{SessionDir, SessionSpec};
@@ -36,6 +39,8 @@ pub struct Study {
     pub spec: StudySpec,
     /// Objects by name.
     pub objects: BTreeMap<String, Object>,
+    /// Objects that found containers are.
+    pub names: Names,
     /// Device profile.
     pub profile: Profile,
     /// The study's camera.
@@ -69,14 +74,17 @@ impl Study {
         let marks_camera = spec.marks.camera.as_deref().map(|name| load_camera(name, &devices)).transpose()?;
         let time_zone = jiff::tz::TimeZone::get(&spec.time_zone)
             .map_err(|source| StudyError::TimeZone { name: spec.time_zone.clone(), source })?;
+        let objects = objects::read_objects(&dir.join("objects.csv"))?;
+        let sessions = sessions::find(dir)?;
         let study = Self {
-            objects: objects::read_objects(&dir.join("objects.csv"))?,
+            names: names::read_names(&dir.join(NAMES_FILE), &objects, &sessions)?,
+            objects,
+            sessions,
             profile: Profile::load(&spec.device_profile, &devices)?,
             camera_spec: ingest::camera::load(&spec.camera, &devices)?,
             marks_camera,
             tables: spec.tables.iter().map(|entry| printed::resolve(entry, dir)).collect::<Result<_, _>>()?,
             time_zone,
-            sessions: sessions::find(dir)?,
             dir: dir.to_owned(),
             spec,
             calibration: None,

@@ -181,9 +181,8 @@ struct Svg<'a> {
 }
 
 /// A drawing as SVG: for a page, or (`standalone`) as a file of its own with a white ground, a size and fonts.
-pub(super) fn svg(drawing: &Drawing, [name, title, alt]: [&str; 3], standalone: bool) -> String {
-    // Writing to memory does not fail, and the template has no filter that could.
-    Svg { name, title, alt, standalone, drawing }.render().unwrap_or_default()
+pub(super) fn svg(drawing: &Drawing, [name, title, alt]: [&str; 3], standalone: bool) -> Result<String, askama::Error> {
+    Svg { name, title, alt, standalone, drawing }.render()
 }
 
 #[cfg(test)]

@@ -38,6 +38,11 @@ pub use write::write_figures;
 /// Why figures of errors are not there.
 const NO_TRUTH: &str = "no size has a true size to compare with";
 
+/// A figure that could not be made: its template failed, which only a failing writer can cause.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot put a figure together")]
+pub struct FigureError(#[from] askama::Error);
+
 /// The figures of a run, and those for which it has no data.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Figures {
@@ -82,14 +87,16 @@ impl Made {
 /// Draws the figures of a run from its rows and from the ledger of its images (empty where there is none).
 ///
 /// Each SVG takes its text's colour and font from the page that it stands in. The same results give the same bytes.
-#[must_use]
-pub fn figures(results: &Results, frames: &[FrameRow]) -> Figures {
+///
+/// # Errors
+/// [`FigureError`].
+pub fn figures(results: &Results, frames: &[FrameRow]) -> Result<Figures, FigureError> {
     let mut figures = Figures { statement: results.metadata.statement.clone(), ..Figures::default() };
     for made in all(results, frames) {
         match made {
             Made::Drawn { name, title, captions: [caption, alt], drawing } => {
-                let [svg, standalone] =
-                    [false, true].map(|standalone| drawing::svg(&drawing, [name, title, &alt], standalone));
+                let text = |standalone: bool| drawing::svg(&drawing, [name, title, &alt], standalone);
+                let (svg, standalone) = (text(false)?, text(true)?);
                 let (name, title) = (name.to_owned(), title.to_owned());
                 figures.drawn.push(Figure { name, title, caption, alt, svg });
                 figures.standalone.push(standalone);
@@ -97,7 +104,7 @@ pub fn figures(results: &Results, frames: &[FrameRow]) -> Figures {
             Made::LeftOut(left_out) => figures.left_out.push(left_out),
         }
     }
-    figures
+    Ok(figures)
 }
 
 fn all(results: &Results, frames: &[FrameRow]) -> Vec<Made> {

@@ -1,6 +1,6 @@
 //! Small results made by hand, and the plates of the paper's Table II.
 
-use model::results::{RESULTS_SCHEMA_VERSION, ResultRow};
+use model::results::ResultRow;
 use model::{
     Kind, Level, Method, Note, PrintedRow, PrintedSummary, PrintedTable, Quantity, RunMetadata, Selection, Shape,
     TableLayout, TableSpec, UtcNs,
@@ -9,49 +9,18 @@ use report::Results;
 
 pub fn row(object: &str, kind: Kind, quantity: Quantity, predicted_mm: Option<f64>, truth_mm: f64) -> ResultRow {
     ResultRow {
-        schema_version: RESULTS_SCHEMA_VERSION,
         study: "by hand".to_owned(),
         session: "s1".to_owned(),
-        participant: None,
-        object: object.to_owned(),
-        kind,
-        shape: Shape::Circle,
-        setup_height_mm: None,
-        setup_pitch_deg: None,
         rater: "anna".to_owned(),
         image: Some("a.jpg".to_owned()),
         time_utc: Some(UtcNs(1_700_000_000_000_000_001)),
-        pitch_deg: None,
         roll_deg: Some(0.0),
-        range_mm: None,
-        quantity,
-        method: Method::Paper,
-        level: Level::Frame,
         predicted_mm,
-        sigma_mm: None,
-        sigma_pitch_mm: None,
-        sigma_roll_mm: None,
-        sigma_range_mm: None,
-        sigma_marks_mm: None,
-        sigma_camera_mm: None,
         plane_z_mm: Some(0.0),
         truth_mm: Some(truth_mm),
         error_pct: predicted_mm.map(|predicted| 100.0 * (predicted - truth_mm) / truth_mm),
-        selected: true,
-        frames: 1,
-        spread_mm: None,
-        flags: String::new(),
         method_used: predicted_mm.map(|_| Method::Paper),
-        doubts: String::new(),
-        sigma_mount_mm: None,
-        sigma_common_mm: None,
-        wall_slope: None,
-        rank: None,
-        weight: None,
-        chi_squared: None,
-        chi_squared_degrees: None,
-        consistency: None,
-        confidence: None,
+        ..ResultRow::without_numbers(object, kind, quantity, Method::Paper)
     }
 }
 

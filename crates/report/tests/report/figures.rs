@@ -81,7 +81,7 @@ fn check(figure: &Figure) -> Drawn {
 
 #[test]
 fn every_figure_is_well_formed_in_its_box_and_the_same_each_time() {
-    let all = || figures(&with_sigma(), &frames("a", 60));
+    let all = || figures(&with_sigma(), &frames("a", 60)).unwrap();
     let drawn = all();
     assert!(drawn.left_out.is_empty(), "{:?}", drawn.left_out);
     assert_eq!(drawn.drawn.len(), 9);
@@ -91,7 +91,7 @@ fn every_figure_is_well_formed_in_its_box_and_the_same_each_time() {
 
 #[test]
 fn axes_have_units() {
-    let drawn = figures(&with_sigma(), &frames("a", 60));
+    let drawn = figures(&with_sigma(), &frames("a", 60)).unwrap();
     for (name, words) in [
         ("error_by_pitch", ["error (%)", "pitch (deg)"]),
         ("error_by_height", ["error (%)", "height of the camera (cm)"]),
@@ -116,7 +116,7 @@ fn every_row_has_a_mark() {
     let single = results.rows.iter().filter(|row| row.level == Level::Frame).count();
     let fused = results.rows.len() - single;
     assert!(single == 45 && fused > 10, "{single} {fused}");
-    let all = figures(&results, &frames("a", 60));
+    let all = figures(&results, &frames("a", 60)).unwrap();
     for (name, marks) in [
         ("error_by_pitch", single),
         ("error_by_height", single),
@@ -137,7 +137,7 @@ fn numbers_in_the_words_are_those_of_the_tables() {
     for row in &mut results.rows {
         row.sigma_mm = Some(9.5);
     }
-    let all = figures(&results, &[]);
+    let all = figures(&results, &[]).unwrap();
     assert!(named(&all, "error_by_pitch").alt.contains("method paper: plate, across +1.7 %"));
     let agreement = &named(&all, "bland_altman").alt;
     // Mean 10 / 3, SD of (-9, 9, 10) 10.69.
@@ -148,14 +148,14 @@ fn numbers_in_the_words_are_those_of_the_tables() {
 
 #[test]
 fn without_data_figures_are_left_out_with_a_reason() {
-    let nothing = figures(&bench::results(Vec::new(), Vec::new()), &[]);
+    let nothing = figures(&bench::results(Vec::new(), Vec::new()), &[]).unwrap();
     assert!(nothing.drawn.is_empty());
     assert_eq!(nothing.left_out.len(), 9);
     assert!(nothing.left_out.iter().all(|left_out| !left_out.reason.is_empty()));
 
     let mut untrue = with_sigma();
     untrue.rows.iter_mut().for_each(|row| row.truth_mm = None);
-    let all = figures(&untrue, &frames("a", 1));
+    let all = figures(&untrue, &frames("a", 1)).unwrap();
     let names: Vec<&str> = all.drawn.iter().map(|figure| figure.name.as_str()).collect();
     assert_eq!(names, ["flow", "pitch_and_range", "selected_share", "sizes"]);
     assert!(all.left_out.iter().all(|left_out| left_out.reason.contains("no size has a true size")));
@@ -163,7 +163,7 @@ fn without_data_figures_are_left_out_with_a_reason() {
 
     let mut one = with_sigma();
     one.rows.truncate(1);
-    figures(&one, &frames("a", 1)).drawn.iter().for_each(|figure| drop(check(figure)));
+    figures(&one, &frames("a", 1)).unwrap().drawn.iter().for_each(|figure| drop(check(figure)));
 }
 
 #[test]
@@ -178,7 +178,7 @@ fn names_mean_nothing_to_a_page() {
         row.image = row.image.as_ref().map(|_| (*name).to_owned());
     }
     let all_frames: Vec<FrameRow> = names.iter().flat_map(|name| frames(name, 6)).collect();
-    let all = figures(&results, &all_frames);
+    let all = figures(&results, &all_frames).unwrap();
     assert_eq!(all.drawn.len(), 9);
     for figure in &all.drawn {
         let drawn = check(figure);
@@ -203,19 +203,19 @@ fn large_studies_give_small_figures() {
     };
     results.rows = (0..10_000).map(row).collect();
     let all_frames: Vec<FrameRow> = (0..20).flat_map(|i| frames(&format!("session-{i:03}"), 2500)).collect();
-    let all = figures(&results, &all_frames);
+    let all = figures(&results, &all_frames).unwrap();
     all.drawn.iter().for_each(|figure| drop(check(figure)));
     assert!(named(&all, "error_by_pitch").caption.contains(" marks, "), "says that marks are left out");
     assert!(named(&all, "pitch_and_range").caption.starts_with("The first 12 of 20 sessions"));
     let many: Vec<FrameRow> = (0..300).flat_map(|i| frames(&format!("session-{i:03}"), 3)).collect();
-    assert!(named(&figures(&results, &many), "selected_share").caption.contains("in classes of 5 %"));
+    assert!(named(&figures(&results, &many).unwrap(), "selected_share").caption.contains("in classes of 5 %"));
 }
 
 #[test]
 fn an_outlier_stands_at_the_edge_and_is_told() {
     let mut results = with_sigma();
     results.rows[0].predicted_mm = Some(1e7);
-    let all = figures(&results, &[]);
+    let all = figures(&results, &[]).unwrap();
     let figure = named(&all, "error_by_pitch");
     assert!(figure.caption.contains("1 error beyond a scale"), "{}", figure.caption);
     assert_eq!(check(figure).marks(), 45);
@@ -224,7 +224,7 @@ fn an_outlier_stands_at_the_edge_and_is_told() {
 #[test]
 fn files_stand_alone_and_old_ones_go() {
     let dir = tempfile::tempdir().unwrap();
-    write_figures(&figures(&with_sigma(), &frames("a", 9)), dir.path()).unwrap();
+    write_figures(&figures(&with_sigma(), &frames("a", 9)).unwrap(), dir.path()).unwrap();
     let folder = dir.path().join("figures");
     let text = std::fs::read_to_string(folder.join("error_by_pitch.svg")).unwrap();
     let parsed = Drawn::parse(&text);
@@ -234,7 +234,7 @@ fn files_stand_alone_and_old_ones_go() {
     let captions = std::fs::read_to_string(folder.join("figures.md")).unwrap();
     assert!(captions.contains("](error_by_pitch.svg)") && captions.contains("proves arithmetic only"));
 
-    write_figures(&figures(&bench::results(Vec::new(), Vec::new()), &[]), dir.path()).unwrap();
+    write_figures(&figures(&bench::results(Vec::new(), Vec::new()), &[]).unwrap(), dir.path()).unwrap();
     let left: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left, ["figures.md"]);
     assert!(std::fs::read_to_string(folder.join("figures.md")).unwrap().contains("## Not drawn"));
@@ -242,7 +242,7 @@ fn files_stand_alone_and_old_ones_go() {
 
 #[test]
 fn drawn() {
-    insta::assert_snapshot!("figure_flow", named(&figures(&bench::plates(), &frames("a", 9)), "flow").svg);
+    insta::assert_snapshot!("figure_flow", named(&figures(&bench::plates(), &frames("a", 9)).unwrap(), "flow").svg);
 }
 
 fn number() -> impl Strategy<Value = Option<f64>> {
@@ -279,6 +279,6 @@ proptest! {
             range_mm: numbers[1],
             ..FrameRow::without_numbers("by hand", "a", "a.jpg", FrameReason::Selected)
         }).collect();
-        figures(&results, &all_frames).drawn.iter().for_each(|figure| drop(check(figure)));
+        figures(&results, &all_frames).unwrap().drawn.iter().for_each(|figure| drop(check(figure)));
     }
 }

@@ -72,7 +72,7 @@ fn bars_for_a_terminal() {
     let text = flow_bars(&small(), Some(60)).unwrap();
     insta::assert_snapshot!("flow_bars", text);
     assert!(text.lines().all(|line| line.chars().count() <= 60), "{text}");
-    let figures = report::figures(&small(), &frames());
+    let figures = report::figures(&small(), &frames()).unwrap();
     for line in text.lines().filter(|line| line.contains("left out: ")) {
         assert!(figures.drawn[0].svg.contains(line.trim()), "{line}");
     }

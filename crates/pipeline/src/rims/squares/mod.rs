@@ -166,6 +166,7 @@ impl Square {
         Rim {
             confidence: self.confidence,
             kind: Kind::Plate,
+            plate_log_odds: PLATE_LOG_ODDS,
             center_px: self.center_px,
             points_px: self.corners_px.to_vec(),
             perimeter_px: self.perimeter_px,
@@ -178,6 +179,8 @@ impl Square {
     }
 }
 
+/// What has a well below a straight rim is a plate or a tray, whatever it looks like in other images; boxes are not told from them.
+const PLATE_LOG_ODDS: f64 = 10.0;
 /// Height over side of plates and bowls, by the square root of their area: mean and standard deviation. Estimates of our own, as
 /// those of round ones.
 const PLATES: (f64, f64) = (0.1, 0.035);

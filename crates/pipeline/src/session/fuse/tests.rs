@@ -2,10 +2,7 @@
 
 use std::path::Path;
 
-use model::results::RESULTS_SCHEMA_VERSION;
-use model::{
-    Estimate, InputSigma, Kind, Measured, Method, PerSource, Quantity, Sensitivity, Shape, Source, UtcNs, Verdict,
-};
+use model::{Estimate, InputSigma, Kind, Measured, Method, PerSource, Quantity, Sensitivity, Source, UtcNs, Verdict};
 
 use super::*;
 
@@ -13,49 +10,20 @@ const INPUTS: InputSigma = InputSigma { range_relative: 0.03, mark_px: 2.0, ..In
 
 fn row(rater: &str, image: &str, predicted_mm: Option<f64>, selected: bool) -> ResultRow {
     ResultRow {
-        schema_version: RESULTS_SCHEMA_VERSION,
         study: "t".to_owned(),
         session: "s".to_owned(),
-        participant: None,
-        object: "plate".to_owned(),
-        kind: Kind::Plate,
-        shape: Shape::Circle,
-        setup_height_mm: None,
-        setup_pitch_deg: None,
         rater: rater.to_owned(),
         image: Some(image.to_owned()),
         time_utc: Some(UtcNs(0)),
         pitch_deg: Some(55.0),
         roll_deg: Some(1.0),
         range_mm: Some(500.0),
-        quantity: Quantity::Diameter,
-        method: Method::Ray,
-        level: Level::Frame,
         predicted_mm,
-        sigma_mm: None,
-        sigma_pitch_mm: None,
-        sigma_roll_mm: None,
-        sigma_range_mm: None,
-        sigma_marks_mm: None,
-        sigma_camera_mm: None,
         plane_z_mm: Some(0.0),
         truth_mm: Some(200.0),
-        error_pct: None,
         selected,
-        frames: 1,
-        spread_mm: None,
-        flags: String::new(),
         method_used: Some(Method::Ray),
-        doubts: String::new(),
-        sigma_mount_mm: None,
-        sigma_common_mm: None,
-        wall_slope: None,
-        rank: None,
-        weight: None,
-        chi_squared: None,
-        chi_squared_degrees: None,
-        consistency: None,
-        confidence: None,
+        ..ResultRow::without_numbers("plate", Kind::Plate, Quantity::Diameter, Method::Ray)
     }
 }
 

@@ -1,0 +1,79 @@
+//! What is wrong with a file of marks.
+
+use std::io;
+use std::path::PathBuf;
+
+use super::LARGEST_FILE_BYTES;
+
+/// Why a file, or one shape of it, gives no marks.
+#[derive(Debug, thiserror::Error)]
+pub enum MarksError {
+    /// It cannot be read.
+    #[error("cannot read the file: {source}: {}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// It is too large for marks.
+    #[error("the file has more than {LARGEST_FILE_BYTES} bytes, too many for marks: {}", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It is not LabelMe's JSON.
+    #[error("not a LabelMe file: {source}; open it in LabelMe and save it again: {}", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// Why, with line and column.
+        source: serde_json::Error,
+    },
+    /// The picture that was marked has another size than the camera's.
+    #[error(
+        "marked on a picture of {got_width} x {got_height} px, but the camera's are {width} x {height}: mark the original \
+         pictures, or name the camera of the marked ones ([marks] camera in study.toml): {}", path.display()
+    )]
+    OtherPicture {
+        /// The file.
+        path: PathBuf,
+        /// Width that the file gives.
+        got_width: u32,
+        /// Height that the file gives.
+        got_height: u32,
+        /// Width of the camera's pictures.
+        width: u32,
+        /// Height of the camera's pictures.
+        height: u32,
+    },
+    /// One of its shapes.
+    #[error("shape {number} ('{label}'): {fact}: {}", path.display())]
+    Shape {
+        /// The file.
+        path: PathBuf,
+        /// Number of the shape, from 1.
+        number: usize,
+        /// Its label.
+        label: String,
+        /// What is wrong: expected and got.
+        fact: String,
+    },
+}
+
+impl MarksError {
+    /// Stable code, for the status of a session.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Unreadable { .. } => MARKS_UNREADABLE,
+            Self::TooLarge { .. } => "marks_too_large",
+            Self::Malformed { .. } => "marks_malformed",
+            Self::OtherPicture { .. } => "marks_of_other_picture",
+            Self::Shape { .. } => "bad_mark",
+        }
+    }
+}
+
+/// The system does not let marks be read.
+pub(crate) const MARKS_UNREADABLE: &str = "marks_unreadable";

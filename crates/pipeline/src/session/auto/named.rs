@@ -1,0 +1,97 @@
+//! One kind, one height and one name for each container.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::Seen;
+use super::link::containers;
+use super::track::Sighting;
+use crate::labelme::AutoRim;
+use crate::rims::Found;
+use crate::study::FOUND;
+
+/// The rims by image, named: one container, one name, what it is by all of its images. Numbers go from 1 in the order in which
+/// containers are first seen; `taken` are left out, and so are containers narrower than `least_diameter_mm`.
+pub(super) fn named(seen: Vec<Seen>, taken: &BTreeSet<u32>, least_diameter_mm: f64) -> BTreeMap<String, Vec<AutoRim>> {
+    let sightings: Vec<Sighting> = seen.iter().map(|seen| seen.sighting).collect();
+    let mut free = (1..).filter(|number| !taken.contains(number));
+    let mut decided: Vec<Option<(String, Found)>> = vec![None; seen.len()];
+    for track in containers(&sightings) {
+        let Some(looks) = track.looks() else { continue };
+        let kind = looks.kind();
+        let is_wide = track.narrowest_mm(looks.height(kind).mm) >= least_diameter_mm;
+        if !is_wide {
+            continue;
+        }
+        let name = format!("{FOUND}{}", free.next().unwrap_or(u32::MAX));
+        for member in track.members {
+            let own = seen[member].rim.found;
+            let found = Found { kind, height: looks.bowl, plate_height: Some(looks.plate), ..own };
+            decided[member] = Some((name.clone(), found));
+        }
+    }
+    let mut by_image: BTreeMap<String, Vec<AutoRim>> = BTreeMap::new();
+    for (Seen { image, rim, .. }, decided) in seen.into_iter().zip(decided) {
+        let Some((object, found)) = decided else { continue };
+        by_image.entry(image).or_default().push(AutoRim { object, found, ..rim });
+    }
+    by_image
+}
+
+#[cfg(test)]
+mod tests {
+    use model::{Kind, Shape, UtcNs};
+
+    use super::*;
+    use crate::rims::{HeightSource, RimHeight};
+    use crate::session::auto::looks::Looks;
+
+    const LEAST_MM: f64 = 90.0;
+
+    /// A rim of a bowl 60 mm high, seen from 400 mm.
+    fn seen(image: u32, across_mm: f64, plate_log_odds: f64, bowl_mm: f64) -> Seen {
+        let height = |mm: f64| RimHeight { mm, sigma_mm: 10.0, source: HeightSource::Foot };
+        let (plate, bowl) = (height(20.0), height(bowl_mm));
+        let kind = if plate_log_odds > 0.0 { Kind::Plate } else { Kind::Bowl };
+        let (shape, plate_height) = (Shape::Circle, Some(plate));
+        let found = Found { kind, shape, confidence: 0.9, perimeter_px: 500.0, height: bowl, plate_height };
+        let sighting = Sighting {
+            image: image as usize,
+            time: UtcNs(i64::from(image) * 1_000_000_000_000),
+            across_mm,
+            narrowness: None,
+            relative_sigma: 0.03,
+            camera_mm: 400.0,
+            at_mm: [0.0, 300.0],
+            looks: Looks { plate, bowl, plate_log_odds },
+        };
+        let rim = AutoRim { object: String::new(), points_px: Vec::new(), found };
+        Seen { image: format!("{image}.jpg"), rim, sighting }
+    }
+
+    #[test]
+    fn all_images_of_a_container_have_its_kind_and_height() {
+        let images = vec![seen(0, 200.0, -6.0, 50.0), seen(1, 201.0, 4.0, 70.0), seen(2, 199.0, -3.0, 60.0)];
+        let by_image = named(images, &BTreeSet::new(), LEAST_MM);
+        let rims: Vec<&AutoRim> = by_image.values().flatten().collect();
+        assert_eq!(rims.len(), 3);
+        for rim in rims {
+            assert_eq!((rim.object.as_str(), rim.found.kind), ("auto-1", Kind::Bowl));
+            assert!((rim.found.height.mm - 60.0).abs() < 1e-9 && rim.found.height.sigma_mm < 10.0, "{:?}", rim.found);
+        }
+    }
+
+    #[test]
+    fn numbers_are_of_what_is_kept_and_free() {
+        let images = vec![seen(0, 80.0, -6.0, 60.0), seen(0, 150.0, -6.0, 60.0), seen(1, 250.0, 6.0, 60.0)];
+        let by_image = named(images, &BTreeSet::from([1, 3]), LEAST_MM);
+        let names = |image: &str| by_image[image].iter().map(|rim| rim.object.as_str()).collect::<Vec<_>>();
+        assert_eq!((names("0.jpg"), names("1.jpg")), (vec!["auto-2"], vec!["auto-4"]), "a cup has no name");
+    }
+
+    /// Whether it is a cup is asked of the container: in one image alone it would be wide enough.
+    #[test]
+    fn a_container_is_narrow_in_all_of_its_images_or_in_none() {
+        let cup = vec![seen(0, 109.0, -6.0, 60.0), seen(1, 103.0, -6.0, 60.0), seen(2, 102.0, -6.0, 60.0)];
+        assert!(named(cup, &BTreeSet::new(), LEAST_MM).is_empty());
+    }
+}
