@@ -116,10 +116,11 @@ fn a_rectangular_plate_is_found_named_measured_written_and_read_back() {
         let fused = of_level(Level::Fused).next().unwrap();
         let (found_mm, sigma_mm) = (fused.predicted_mm.unwrap(), fused.sigma_mm.unwrap());
         assert!((found_mm / true_mm - 1.0).abs() < 0.03, "{quantity}: {found_mm} mm");
-        assert!((found_mm - true_mm).abs() < 2.5 * sigma_mm && sigma_mm < 0.04 * true_mm, "{found_mm} +- {sigma_mm}");
+        assert!((found_mm - true_mm).abs() < 2.5 * sigma_mm && sigma_mm < 0.06 * true_mm, "{found_mm} +- {sigma_mm}");
     }
     // What was written is read back to the same sizes, with no search.
     let again = made.run("both.parquet", &["--marks", "both"]);
+    let again: Vec<ResultRow> = again.into_iter().filter(|row| row.rater == "auto").collect();
     assert_eq!(again, rows);
 }
 
