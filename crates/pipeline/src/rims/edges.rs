@@ -1,5 +1,7 @@
 //! Edges with sub-pixel places: where brightness or colour changes fastest along its gradient.
 
+use wide::{CmpGt, f32x4};
+
 use super::scaled::Scaled;
 
 /// One edge pixel, in pixels of the scaled picture.
@@ -68,29 +70,31 @@ impl Gradient {
     fn of(scaled: &Scaled) -> Self {
         let (width, height) = (scaled.width, scaled.height);
         let empty = || vec![0.0_f32; width * height];
+        let mut rows = empty();
+        let smooth = [0, 1, 2].map(|plane: usize| {
+            let mut both = empty();
+            smooth(&scaled.planes[plane], width, &mut rows, &mut both);
+            both
+        });
         let mut found = Self { x: empty(), y: empty(), size: empty() };
-        for plane in &scaled.planes {
-            let smooth = smoothed(plane, width);
-            for y in 1..height - 1 {
-                let above = &smooth[(y - 1) * width..y * width];
-                let here = &smooth[y * width..(y + 1) * width];
-                let below = &smooth[(y + 1) * width..(y + 2) * width];
-                let inner = y * width + 1..(y + 1) * width - 1;
-                let out =
-                    found.x[inner.clone()].iter_mut().zip(&mut found.y[inner.clone()]).zip(&mut found.size[inner]);
-                let sides = here.windows(3).zip(above[1..].iter().zip(&below[1..]));
-                for (((x, y), size), (beside, (above, below))) in out.zip(sides) {
-                    let (gx, gy) = (0.5 * (beside[2] - beside[0]), 0.5 * (below - above));
-                    let squared = gx * gx + gy * gy;
-                    let larger = squared > *size;
-                    *x = if larger { gx } else { *x };
-                    *y = if larger { gy } else { *y };
-                    *size = if larger { squared } else { *size };
+        for y in 1..height - 1 {
+            let line = y * width;
+            // Four at a time; the last four may be in part the same as those before.
+            for x in (1..width - LANES).step_by(LANES).chain([width - 1 - LANES]) {
+                let at = line + x;
+                let (mut gx, mut gy, mut size) = (f32x4::ZERO, f32x4::ZERO, f32x4::ZERO);
+                for plane in &smooth {
+                    let (beside, above, below) = (&plane[at - 1..], &plane[at - width..], &plane[at + width..]);
+                    let (dx, dy) = (four(&beside[2..]) - four(beside), four(below) - four(above));
+                    let squared = dx * dx + dy * dy;
+                    let larger = squared.cmp_gt(size);
+                    (gx, gy, size) = (larger.blend(dx, gx), larger.blend(dy, gy), larger.blend(squared, size));
                 }
+                let half = f32x4::HALF;
+                set(&mut found.x[at..], gx * half);
+                set(&mut found.y[at..], gy * half);
+                set(&mut found.size[at..], size.sqrt() * half);
             }
-        }
-        for size in &mut found.size {
-            *size = size.sqrt();
         }
         found
     }
@@ -126,23 +130,40 @@ impl Gradient {
     }
 }
 
-/// A plane smoothed by the binomial filter 1-4-6-4-1 (about a Gaussian of one pixel) along rows and columns. A border of two
-/// pixels stays as it is.
-fn smoothed(plane: &[f32], width: usize) -> Vec<f32> {
-    let mut rows = plane.to_vec();
+/// Numbers worked on together.
+const LANES: usize = 4;
+
+fn four(numbers: &[f32]) -> f32x4 {
+    f32x4::from(numbers.first_chunk().copied().unwrap_or_default())
+}
+
+fn set(numbers: &mut [f32], four: f32x4) {
+    if let Some(chunk) = numbers.first_chunk_mut() {
+        *chunk = four.to_array();
+    }
+}
+
+/// A plane smoothed by the binomial filter 1-4-6-4-1 (about a Gaussian of one pixel) along rows, and then along columns too.
+/// A border of two pixels stays as it is.
+fn smooth(plane: &[f32], width: usize, rows: &mut [f32], both: &mut [f32]) {
     for (row, out) in plane.chunks_exact(width).zip(rows.chunks_exact_mut(width)) {
+        for border in [0, 1, width - 2, width - 1] {
+            out[border] = row[border];
+        }
         for (w, o) in row.windows(5).zip(&mut out[2..]) {
-            *o = (w[0] + w[4] + 4.0 * (w[1] + w[3]) + 6.0 * w[2]) / 16.0;
+            *o = (w[0] + w[4] + 4.0 * (w[1] + w[3]) + 6.0 * w[2]) * (1.0 / 16.0);
         }
     }
-    let mut both = rows.clone();
     let height = plane.len() / width;
+    for border in [0, 1, height - 2, height - 1] {
+        let line = border * width..(border + 1) * width;
+        both[line.clone()].copy_from_slice(&rows[line]);
+    }
     for y in 2..height - 2 {
         let line = |dy: usize| &rows[(y + dy - 2) * width..(y + dy - 1) * width];
         let (a, b, c, d, e) = (line(0), line(1), line(2), line(3), line(4));
         for (x, o) in both[y * width..(y + 1) * width].iter_mut().enumerate() {
-            *o = (a[x] + e[x] + 4.0 * (b[x] + d[x]) + 6.0 * c[x]) / 16.0;
+            *o = (a[x] + e[x] + 4.0 * (b[x] + d[x]) + 6.0 * c[x]) * (1.0 / 16.0);
         }
     }
-    both
 }

@@ -13,10 +13,12 @@ mod arcs;
 mod buckets;
 mod chains;
 mod edges;
+mod fitting;
 mod floor;
 mod found;
 mod ground;
 mod height;
+mod lanes;
 mod lip;
 mod outward;
 mod raster;
@@ -26,6 +28,7 @@ mod search;
 mod select;
 mod significance;
 mod sizes;
+mod support;
 #[cfg(test)]
 mod tests;
 mod votes;
@@ -111,8 +114,9 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
         return Err(RimError::Bytes { found: picture.rgb.len(), expected });
     }
     let scaled = Scaled::of(picture, view.camera().focal_px()[0]);
-    let buckets = Buckets::new(&ground::ground_edges(view, &scaled));
-    let found = search::rims(view, &buckets);
+    let ground = ground::ground_edges(view, &scaled);
+    let (buckets, pieces) = (Buckets::new(&ground.edges), Buckets::new(&ground.pieces));
+    let found = search::rims(view, &buckets, &pieces);
     let mut rims: Vec<Rim> =
         found.iter().filter_map(|found| in_full(picture, view, &buckets, found, scaled.factor)).collect();
     rims.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));

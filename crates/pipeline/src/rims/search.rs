@@ -30,20 +30,20 @@ fn most_oval(view: &View, disc: &Disc) -> f64 {
     ROUND + 0.5 * POSE_ERROR_RAD * disc.x.hypot(disc.y) / view.pose().camera_height_mm()
 }
 
-/// The rims of a picture, the likeliest first.
-pub(super) fn rims(view: &View, buckets: &Buckets) -> Vec<Scored> {
+/// The rims of a picture, the likeliest first, by its edges and by pieces of chains of them.
+pub(super) fn rims(view: &View, buckets: &Buckets, pieces: &Buckets) -> Vec<Scored> {
     let camera_mm = view.pose().camera_height_mm();
     let score = |arc: Arc| {
         let evidence = Evidence::of(view, &arc);
         Scored { confidence: evidence.rank(), evidence, best: evidence, arc }
     };
-    let likely = likely_discs(buckets.edges(), RADII_MM);
+    let likely = likely_discs(pieces.edges(), RADII_MM);
     // Each of the circles voted for is fitted once, if ever.
     let mut fits: Vec<Option<Option<Arc>>> = vec![None; likely.all.len()];
     let mut fitted = |discs: &[usize]| -> Vec<Scored> {
         let arcs = discs.iter().filter_map(|i| {
             let disc = &likely.all[*i];
-            fits[*i].get_or_insert_with(|| arcs::fit(buckets, disc, most_oval(view, disc))).clone()
+            fits[*i].get_or_insert_with(|| arcs::fit(buckets, pieces, disc, most_oval(view, disc))).clone()
         });
         distinct(arcs.filter(|arc| arc.disc.radius >= RADII_MM[0]).collect()).into_iter().map(score).collect()
     };
