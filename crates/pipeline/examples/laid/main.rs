@@ -6,8 +6,10 @@
 //!
 //! Prints tables. With AIM_BATCH_LAID_PICTURES=DIR every picture is kept there as JPEG, and taken from there if it is there
 //! already. With AIM_BATCH_LAID_CSV=FILE, one line per rim found, drinking glasses' left out: picture, confidence, right or
-//! not, what its confidence is worked out from (for the example `confidence`).
+//! not, what its confidence is worked out from (for the example `confidence`). With AIM_BATCH_LAID_CASES=FILE, one line of JSON
+//! per container in view: errors, the true circle in the picture, and what was found of it.
 
+mod cases;
 mod tables;
 
 use std::error::Error;
@@ -41,6 +43,9 @@ struct Case {
     /// Whether some of the foot is seen below the rim.
     shows_foot: bool,
     found: Option<Found>,
+    /// Height of the rim above the table.
+    rim_level_mm: f64,
+    drawing: cases::Drawing,
 }
 
 /// Sizes of a found rim against the truth, as shares of the truth.
@@ -90,7 +95,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         (0..benches).flat_map(|at| laid::bench(seed * 1000 + at, width)).flat_map(|plan| plan.frames).collect();
     let worn = laid::worn(seed, width, usize::try_from(sessions)?, usize::try_from(images)?);
     let worn: Vec<Frame> = worn.into_iter().flat_map(|plan| plan.frames).collect();
-    let (mut rims, mut csv) = (Vec::new(), String::new());
+    let (mut rims, mut csv, mut lines) = (Vec::new(), String::new(), String::new());
     for (name, frames) in [("bench", bench), ("worn", worn)] {
         let examine = |(at, frame): (usize, &Frame)| {
             let view = frame.view(&camera).map_err(|e| e.to_string())?;
@@ -99,11 +104,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         let reports = frames.par_iter().enumerate().map(examine).collect::<Result<Vec<Report>, String>>()?;
         write!(out, "{}", tables::summary(name, &reports))?;
         csv.extend(reports.iter().flat_map(|report| report.rims.iter().map(|rim| rim.csv(&report.name))));
+        lines.extend(reports.iter().flat_map(cases::lines));
         rims.extend(reports.into_iter().flat_map(|report| report.rims));
     }
     write!(out, "{}", tables::reliability(&rims))?;
     if let Ok(file) = std::env::var("AIM_BATCH_LAID_CSV") {
         std::fs::write(file, csv)?;
+    }
+    if let Ok(file) = std::env::var("AIM_BATCH_LAID_CASES") {
+        std::fs::write(file, lines)?;
     }
     Ok(())
 }
@@ -135,6 +144,8 @@ fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
             in_view: truth.rim_seen >= IN_VIEW,
             shows_foot: foot_seen(frame, &truth.object, view) >= FOOT_SEEN,
             found: best.and_then(|rim| found(rim, truth, view)),
+            rim_level_mm: truth.rim_level_mm,
+            drawing: cases::Drawing::new(best, truth, view),
         }
     });
     Ok(Report { name: name.to_owned(), cases: cases.collect(), rims: judged, glasses, is_bare: truths.is_empty() })
