@@ -8,21 +8,12 @@ use super::votes::Disc;
 
 /// The circle is divided into as many bins.
 pub(super) const BINS: usize = 72;
-/// A part of a fit: how wide the ring around the circle is in which edges count, in radii, for how many steps, and whether
-/// the circle may look oval.
-struct Pass {
-    width: f32,
-    steps: u8,
-    oval: bool,
-}
-
-/// A fit, from rough to fine.
-const PASSES: [Pass; 4] = [
-    Pass { width: 0.12, steps: 2, oval: false },
-    Pass { width: 0.06, steps: 2, oval: false },
-    Pass { width: 0.03, steps: 3, oval: true },
-    Pass { width: 0.0, steps: 3, oval: true },
-];
+/// Widths of the ring around the circle in which edges count, in radii, from pass to pass of a fit: in rough passes the circle
+/// is round, in fine ones it may look oval. And steps of a pass.
+const ROUGH: [f32; 2] = [0.12, 0.06];
+const ROUGH_STEPS: u8 = 2;
+const FINE: [f32; 2] = [0.03, 0.0];
+const FINE_STEPS: u8 = 3;
 /// Least width of the ring, in scaled pixels; of the last pass.
 pub(super) const RING_PX: f32 = 1.5;
 /// An edge of a circle points to its centre within 18 degrees.
@@ -39,9 +30,11 @@ const KEPT: f32 = 0.12;
 const CLOSE: f32 = 2.0;
 /// The ring about the rim in which other edges are counted, in radii.
 pub(super) const AROUND: f32 = 0.25;
-/// A circle with less edge in its ring after the rough steps, relative to its length, is given up ...
+/// A circle with less edge in its ring after the rough steps, relative to its length, is given up, ...
 const LEAST_START: f32 = 0.25;
-/// ... and one with less along it in the end.
+/// ... or with less of its bins covered there ...
+const LEAST_START_COVERAGE: f64 = 0.22;
+/// ... and one with less along it before the last steps, or in the end.
 const LEAST_SHARE: f32 = 0.2;
 /// Circles with less of their bins covered are not looked at further.
 const LEAST_COVERAGE: f64 = 0.3;
@@ -79,7 +72,7 @@ fn relative(e: &GroundEdge, disc: &Disc) -> (f32, f32) {
 }
 
 /// A circle on its way, and how far from round it is allowed to look.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Trial {
     pub disc: Disc,
     pub oval: [f64; 2],
@@ -114,51 +107,75 @@ impl Trial {
     }
 
     /// For an edge that runs along circles about the centre: its distance outside the curve in mm, and its bin.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "bins")]
+    #[expect(clippy::cast_possible_truncation, reason = "a unit vector")]
     pub(super) fn along(&self, e: &GroundEdge) -> Option<(f32, usize)> {
         let (distance, cosine) = relative(e, &self.disc);
         if cosine.abs() < LEAST_COSINE {
             return None;
         }
         let (off, [cos, sin]) = self.off(e, distance);
-        let turn = sin.atan2(cos).rem_euclid(std::f64::consts::TAU) / std::f64::consts::TAU;
-        Some((off, ((turn * BINS as f64) as usize).min(BINS - 1)))
+        Some((off, bin_of(cos as f32, sin as f32)))
     }
 }
 
-/// Fits a likely circle to the edges near it; none when it has too few, or runs away. The rough steps take `pieces` of
-/// chains, the fine ones each edge. `most_oval`: how far from round, relative to its radius, it may look for an error of the
-/// pose.
-pub(super) fn fit(buckets: &Buckets, pieces: &Buckets, start: &Disc, most_oval: f64) -> Option<Arc> {
-    #[expect(clippy::cast_possible_truncation, reason = "mm")]
-    let radius = start.radius as f32;
-    let mut near = Near::gather(pieces, start, &about(GATHERED * radius));
+/// A likely circle after the rough steps, by pieces of chains.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rough {
+    start: Disc,
+    trial: Trial,
+    /// Share of its bins that have edges in a wide ring.
+    pub coverage: f64,
+    /// Largest scale of the edges about it, in mm per scaled pixel.
+    largest_scale: f32,
+}
+
+/// The rough steps of a fit to `pieces` of chains; none when there are too few, or it runs away.
+#[expect(clippy::cast_possible_truncation, reason = "mm")]
+pub(super) fn rough(pieces: &Buckets, start: &Disc) -> Option<Rough> {
+    let mut near = Near::gather(pieces, start, &about(GATHERED * start.radius as f32));
     let mut trial = Trial { disc: *start, oval: [0.0; 2], most_oval: 0.0 };
-    for (number, Pass { width, steps, oval }) in PASSES.into_iter().enumerate() {
-        if oval && trial.most_oval <= 0.0 {
-            if near.share(&trial, width) < LEAST_START {
-                return None;
-            }
-            near = close_to(buckets, &trial, width * radius, near.largest_scale());
-            trial.most_oval = most_oval;
-        } else if number > 0 {
+    for (pass, width) in ROUGH.into_iter().enumerate() {
+        if pass > 0 {
             near.keep(&trial, width, CLOSE);
         }
-        for _ in 0..steps {
-            trial = near.step(&trial, width)?;
-            let moved = (trial.disc.x - start.x).hypot(trial.disc.y - start.y);
-            if moved > 0.3 * start.radius || !(0.75..1.33).contains(&(trial.disc.radius / start.radius)) {
+        trial = steps(&near, trial, start, width, ROUGH_STEPS)?;
+    }
+    let coverage = near.coverage(&trial, FINE[0]);
+    let is_worth_it = near.share(&trial, FINE[0]) >= LEAST_START && coverage >= LEAST_START_COVERAGE;
+    is_worth_it.then(|| Rough { start: *start, trial, coverage, largest_scale: near.largest_scale() })
+}
+
+/// The fine steps of a fit, to every edge; none when there are too few along the circle, or it runs away. `most_oval`: how far
+/// from round, relative to its radius, it may look for an error of the pose.
+#[expect(clippy::cast_possible_truncation, reason = "mm")]
+pub(super) fn fine(buckets: &Buckets, rough: &Rough, most_oval: f64) -> Option<Arc> {
+    let mut trial = Trial { most_oval, ..rough.trial };
+    let mut near = close_to(buckets, &trial, FINE[0] * rough.start.radius as f32, rough.largest_scale);
+    for (pass, width) in FINE.into_iter().enumerate() {
+        if pass > 0 {
+            near.keep(&trial, width, CLOSE);
+            if near.share(&trial, width) < LEAST_SHARE {
                 return None;
             }
         }
+        trial = steps(&near, trial, &rough.start, width, FINE_STEPS)?;
     }
-    if near.share(&trial, 0.0) < LEAST_SHARE {
-        return None;
-    }
-    if near.coverage(&trial) < LEAST_COVERAGE {
+    if near.share(&trial, 0.0) < LEAST_SHARE || near.coverage(&trial, 0.0) < LEAST_COVERAGE {
         return None;
     }
     Some(support(buckets, &trial))
+}
+
+/// Some steps; none where the circle runs away from its start.
+fn steps(near: &Near, mut trial: Trial, start: &Disc, width: f32, count: u8) -> Option<Trial> {
+    for _ in 0..count {
+        trial = near.step(&trial, width)?;
+        let moved = (trial.disc.x - start.x).hypot(trial.disc.y - start.y);
+        if moved > 0.3 * start.radius || !(0.75..1.33).contains(&(trial.disc.radius / start.radius)) {
+            return None;
+        }
+    }
+    Some(trial)
 }
 
 /// Edges in a ring of fixed width (mm) that may belong to a circle.
@@ -189,8 +206,20 @@ pub(super) fn refit(buckets: &Buckets, start: &Arc, most_oval: f64) -> Option<Ar
 /// The bin of a direction, by numbers as its cosine and sine, and as long as one likes.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "bins")]
 pub(super) fn bin_of(cos: f32, sin: f32) -> usize {
-    let turn = sin.atan2(cos) * (1.0 / std::f32::consts::TAU);
-    (((if turn < 0.0 { turn + 1.0 } else { turn }) * BINS as f32) as usize).min(BINS - 1)
+    let turn = angle_of(cos, sin) * (1.0 / std::f32::consts::TAU);
+    (((if turn < 0.0 { turn + 1.0 } else { turn }) * BINS as f32) as i32 as usize).min(BINS - 1)
+}
+
+/// The angle of a direction in radians, from minus half a turn to half a turn, to 0.0015 (a fiftieth of a bin): a polynomial
+/// for the arc tangent up to an eighth of a turn (Rajan et al. 2006, IEEE Signal Processing Magazine 23(3), equation 9).
+pub(super) fn angle_of(cos: f32, sin: f32) -> f32 {
+    let (c, s) = (cos.abs(), sin.abs());
+    let (short, long) = if c < s { (c, s) } else { (s, c) };
+    let ratio = short / long.max(f32::MIN_POSITIVE);
+    let eighth = ratio * (std::f32::consts::FRAC_PI_4 + (1.0 - ratio) * (0.2447 + 0.0663 * ratio));
+    let quarter = if c < s { std::f32::consts::FRAC_PI_2 - eighth } else { eighth };
+    let half = if cos < 0.0 { std::f32::consts::PI - quarter } else { quarter };
+    if sin < 0.0 { -half } else { half }
 }
 
 /// Length of edges that covers a bin of a circle.

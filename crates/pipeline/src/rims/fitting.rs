@@ -99,14 +99,14 @@ impl Near {
         sum.reduce_add() / (std::f32::consts::TAU * circle.radius.to_array()[0])
     }
 
-    /// Share of the bins of a circle that have edges enough along it.
+    /// Share of the bins of a circle that have edges enough along it. `width`: of the ring in which edges count, in radii.
     #[expect(clippy::cast_precision_loss, reason = "bins")]
-    pub(super) fn coverage(&self, trial: &Trial) -> f64 {
+    pub(super) fn coverage(&self, trial: &Trial, width: f32) -> f64 {
         let circle = self.circle(trial);
         let mut lengths = [0.0_f32; BINS];
         for block in &self.blocks {
             let found = circle.relative(block);
-            let counts = found.is_along() & found.off.abs().cmp_le(circle.ring(block, 0.0));
+            let counts = found.is_along() & found.off.abs().cmp_le(circle.ring(block, width));
             each(counts.move_mask(), |lane| {
                 let bin = bin_of(found.cos.as_array_ref()[lane], found.sin.as_array_ref()[lane]);
                 lengths[bin] += block.length.as_array_ref()[lane];

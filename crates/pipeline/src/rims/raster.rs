@@ -2,6 +2,7 @@
 
 use wide::{CmpGe, CmpLt, f32x4};
 
+use super::arcs::angle_of;
 use super::buckets::Buckets;
 use super::ground::GroundEdge;
 use super::votes::Disc;
@@ -104,7 +105,7 @@ impl Raster {
         if x + reach[0] < 0.0 || y + reach[1] < 0.0 || x - reach[0] > self.columns as f32 {
             return;
         }
-        let bits = sectors_around(e.ny.atan2(e.nx));
+        let bits = sectors_around(angle_of(e.nx, e.ny));
         // Each row meets the strip along the edge, and the one across it.
         let [by_x, by_y] = [e.nx, e.ny].map(|n| 1.0 / if n.abs() < LEAST_NORMAL { LEAST_NORMAL } else { n });
         let (along, across) = (along * by_y.abs(), across * by_x.abs());
@@ -128,13 +129,16 @@ impl Raster {
 
     /// The sum of what edges say at four places, those that `counts` masks.
     pub(super) fn says_of_four(&self, [x, y]: [f32x4; 2], counts: f32x4, normals: [Sector; 4], odds: &Odds) -> f64 {
+        let counts = counts.move_mask();
+        if counts == 0 {
+            return 0.0;
+        }
         let [columns, rows] = [self.columns as f32, self.rows as f32].map(f32x4::splat);
         let column = (x - f32x4::splat(self.left)) * f32x4::splat(self.per_mm);
         let row = (y - f32x4::splat(self.near)) * f32x4::splat(self.per_mm);
         let is_positive = column.cmp_ge(f32x4::ZERO) & row.cmp_ge(f32x4::ZERO);
         let is_inside = (is_positive & column.cmp_lt(columns) & row.cmp_lt(rows)).move_mask();
         let [column, row] = [column, row].map(|cell| cell.fast_trunc_int().to_array());
-        let counts = counts.move_mask();
         let mut sum = 0.0;
         for (lane, normal) in normals.into_iter().enumerate() {
             if counts >> lane & 1 == 1 {
