@@ -241,3 +241,19 @@ impl Arc {
         [self.disc.x + radius * angle.cos(), self.disc.y + radius * angle.sin()]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::angle_of;
+
+    #[test]
+    fn angles_are_those_of_the_arc_tangent() {
+        for i in -1800_i16..=1800 {
+            let angle = f32::from(i) * 0.1_f32.to_radians();
+            let off = angle_of(7.0 * angle.cos(), 7.0 * angle.sin()) - angle;
+            let off = off.sin().abs().max(1.0 - off.cos()); // half a turn is minus half a turn
+            assert!(off < 0.002, "{off} at {angle}");
+        }
+        assert!(angle_of(0.0, 0.0).is_finite());
+    }
+}

@@ -157,3 +157,61 @@ impl Relative {
         self.cosine.abs().cmp_lt(f32x4::splat(OTHER_COSINE))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rims::votes::Disc;
+
+    fn edges() -> Vec<GroundEdge> {
+        let edge = |i: u8| {
+            let angle = 0.7 * f32::from(i);
+            GroundEdge {
+                x: 100.0 + 60.0 * angle.cos() + f32::from(i % 5),
+                y: 300.0 + 60.0 * angle.sin(),
+                nx: angle.cos(),
+                ny: angle.sin(),
+                length: 1.0,
+                scale: 1.0,
+                worst_scale: 1.0,
+                contrast: 9.0,
+            }
+        };
+        (0..23).map(edge).collect()
+    }
+
+    /// Whatever a range begins and ends with, each of its edges has one bit, and no other one has.
+    #[test]
+    fn blocks_hold_the_edges_of_a_range() {
+        let lanes = Lanes::of(&edges());
+        for start in 0..23 {
+            for end in start + 1..=23 {
+                let mut found = Vec::new();
+                for (first, _, bits) in lanes.blocks(start..end) {
+                    each(bits, |lane| found.push(first + lane));
+                }
+                assert_eq!(found, (start..end).collect::<Vec<_>>());
+            }
+        }
+    }
+
+    #[test]
+    fn four_edges_are_where_each_of_them_is() {
+        let disc = Disc { x: 103.0, y: 298.0, radius: 57.0 };
+        let trial = Trial { disc, oval: [1.5, -0.8], most_oval: 0.1 };
+        let (edges, circle) = (edges(), Circle::of(&trial, [0.0; 2]));
+        let lanes = Lanes::of(&edges);
+        for (first, block, bits) in lanes.blocks(0..edges.len()) {
+            let found = circle.relative(block);
+            each(bits, |lane| {
+                let e = &edges[first + lane];
+                let (dx, dy) = (f64::from(e.x) - disc.x, f64::from(e.y) - disc.y);
+                let angle = dy.atan2(dx);
+                let off = dx.hypot(dy) - 57.0 - 1.5 * (2.0 * angle).cos() + 0.8 * (2.0 * angle).sin();
+                let cosine = (dx * f64::from(e.nx) + dy * f64::from(e.ny)) / dx.hypot(dy);
+                assert!((f64::from(found.off.to_array()[lane]) - off).abs() < 1e-3);
+                assert!((f64::from(found.cosine.to_array()[lane]) - cosine).abs() < 1e-5);
+            });
+        }
+    }
+}

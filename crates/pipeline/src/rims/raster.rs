@@ -211,3 +211,47 @@ fn sectors_around(angle: f32) -> u16 {
     }
     bits
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each cell whose middle lies in the rectangle along an edge has its directions, and no other one.
+    #[test]
+    fn edges_are_rectangles_of_cells() {
+        for turn in 0..32_u8 {
+            let angle = f32::from(turn) * 0.2;
+            let (x, y) = (13.3 + f32::from(turn % 7) * 9.1, 41.7);
+            let (nx, ny) = (angle.cos(), angle.sin());
+            let e = GroundEdge { x, y, nx, ny, length: 3.1, scale: 1.3, worst_scale: 1.3, contrast: 9.0 };
+            let (columns, rows) = (60, 50);
+            let mut raster =
+                Raster { left: 5.0, near: 4.0, per_mm: 1.1, columns, rows, sectors: vec![0; columns * rows] };
+            raster.draw(&e);
+            for (at, bits) in raster.sectors.iter().enumerate() {
+                let [column, row] = [at % columns, at / columns].map(|cell| (cell as f32 + 0.5) / 1.1);
+                let (dx, dy) = (5.0 + column - x, 4.0 + row - y);
+                let within = [ACROSS_PX * 1.3 - (dx * nx + dy * ny).abs(), ALONG * 3.1 - (dx * ny - dy * nx).abs()];
+                let inside = within[0].min(within[1]);
+                assert!(inside.abs() < 1e-3 || (inside > 0.0) == (*bits != 0), "turn {turn}, cell {at}: {inside}");
+            }
+        }
+    }
+
+    /// Four looks at once see what each of them does, also beside the raster.
+    #[test]
+    fn four_looks_are_four_times_one() {
+        let sectors = (0..60 * 50).map(|cell: u32| (cell * 40_503 % 65_521) as u16).collect();
+        let raster = Raster { left: -20.0, near: 7.0, per_mm: 0.8, columns: 60, rows: 50, sectors };
+        let odds = Chances(std::array::from_fn(|sector| 0.1 + 0.03 * sector as f64)).odds(0.7);
+        for step in 0..200_u8 {
+            let places = [0.0, 31.0, 62.0, 93.0].map(|more: f32| [f32::from(step) - 60.0 + more, 60.0 - more * 0.7]);
+            let normals = [0, 1, 2, 3].map(|i| Sector::of(f64::from(step) * 0.1 + f64::from(i)));
+            let four = [0, 1].map(|axis| f32x4::from(places.map(|place| place[axis])));
+            let counts = four[0].cmp_lt(f32x4::splat(40.0));
+            let one = |lane: usize| raster.says(places[lane].map(f64::from), normals[lane], &odds);
+            let expected: f64 = (0..4).filter(|lane| places[*lane][0] < 40.0).map(one).sum();
+            assert!((raster.says_of_four(four, counts, normals, &odds) - expected).abs() < 1e-12);
+        }
+    }
+}

@@ -199,3 +199,29 @@ fn next(levels: &[Level; LEVELS], from: usize) -> (usize, f64) {
     }
     first
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Level after level takes over where it reaches furthest.
+    #[test]
+    fn the_outermost_level_is_the_one_that_reaches_furthest() {
+        for foot in [0.3, 0.6, 1.0] {
+            for (height, away) in [(20.0, 250.0), (60.0, 400.0), (150.0, 90.0), (60.0, 0.0)] {
+                let levels: [Level; LEVELS] = std::array::from_fn(|level| {
+                    let share = level as f64 / (LEVELS - 1) as f64;
+                    let t = (450.0 - height) / (450.0 - share * height);
+                    Level { moved: away * (1.0 - t), radius: (foot + (1.0 - foot) * share.sqrt()) * 80.0 * t }
+                });
+                let mut outer = Outermost::of(&levels);
+                for degree in 0..180 {
+                    let cos = f64::from(degree).to_radians().cos();
+                    let reach = |level: &Level| level.moved * cos + level.radius;
+                    let most = levels.iter().map(reach).fold(f64::NEG_INFINITY, f64::max);
+                    assert!((reach(&levels[outer.towards(cos)]) - most).abs() < 1e-9, "{degree} degrees");
+                }
+            }
+        }
+    }
+}
