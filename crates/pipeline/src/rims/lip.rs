@@ -5,7 +5,7 @@
 //! along; of any two, what lies between them tells which one is the rim's ([`rings`](super::rings)).
 //!
 //! The circle found may look oval for an error of the pose; but where it was fitted to inner edges here and outer ones there,
-//! it looks oval for that alone, and follows neither. So a round circle is tried first.
+//! it looks oval for that alone, and follows neither. So round circles are tried as well.
 
 use ingest::Picture;
 use model::View;
@@ -25,7 +25,7 @@ const UNIT: f64 = 0.5;
 /// What chance makes is counted from and to so many pixels further out.
 const TABLE_PX: (f64, f64) = (2.5, 16.0);
 /// Edges within this many pixels of a circle are along it.
-const ALONG_PX: f64 = 0.8;
+const ALONG_PX: f64 = 1.0;
 /// Pixels between the circles that fits start from, and how near an edge must be from fit to fit.
 const STEP_PX: f64 = 1.0;
 const WIDTHS_PX: [f64; 4] = [2.5, 1.8, 1.3, 1.1];
@@ -41,9 +41,8 @@ const SEEN: f64 = 0.35;
 const AS_SEEN: f64 = 0.4;
 /// Odds (logarithm) beyond this count as this.
 const MOST_ODDS: f64 = 3.0;
-/// If round circles are seen as well as this, oval ones are not looked at; and those must be seen so much better.
-const WELL_SEEN: f64 = 0.75;
-const BETTER_SEEN: f64 = 0.1;
+/// Round circles are taken if the best of them is seen in so much more of the directions than the best oval one.
+const BETTER_SEEN: f64 = 0.05;
 
 /// The edge of a rim, and how well the circle is seen that is seen best.
 #[derive(Clone, Copy)]
@@ -60,14 +59,10 @@ pub(super) fn outer_edge(picture: &Picture, view: &View, arc: Arc, factor: usize
     let round = Arc { oval: [0.0; 2], ..arc.clone() };
     let of_round = best_edge(picture, view, &round, px_mm);
     let move_to = |from: Arc, outer: Outer| shifted(from, outer.edge.moved * px_mm);
-    match of_round {
-        Some(outer) if outer.best_seen >= WELL_SEEN || arc.oval == round.oval => return move_to(round, outer),
-        _ => {}
-    }
     match (of_round, best_edge(picture, view, &arc, px_mm)) {
-        (Some(outer), Some(oval)) if oval.best_seen < outer.best_seen + BETTER_SEEN => move_to(round, outer),
-        (_, Some(oval)) => move_to(arc, oval),
-        (Some(outer), None) => move_to(round, outer),
+        (Some(outer), Some(oval)) if oval.best_seen > outer.best_seen - BETTER_SEEN => move_to(arc, oval),
+        (Some(outer), _) => move_to(round, outer),
+        (None, Some(oval)) => move_to(arc, oval),
         (None, None) => arc,
     }
 }

@@ -4,7 +4,7 @@
 //! reduced scale are linked to chains ([`edges`], [`chains`]), carried to that plane, and vote there for circles
 //! ([`votes`]); likely circles are fitted ([`arcs`]), carried from inner to outer edges ([`outward`]), weighed against
 //! chance ([`significance`]), and one per container is kept ([`select`]). In the full picture the outer edge is found
-//! ([`lip`]) and followed ([`refine`]). The height comes from foot and wall below the rim and the floor within it ([`height`],
+//! ([`lip`], [`rays`], [`rings`]) and followed ([`refine`]). The height comes from foot and wall below the rim and the floor within it ([`height`],
 //! [`wall`], [`floor`]).
 //!
 //! A found rim becomes the same [`ObjectMarks`] as a person's marks, and is measured by the same code.
@@ -20,6 +20,8 @@ mod ground;
 mod height;
 mod lanes;
 mod lip;
+#[cfg(test)]
+mod lip_tests;
 mod outward;
 mod raster;
 mod rays;
@@ -96,7 +98,7 @@ pub enum RimError {
 }
 
 /// Version of what is found. A change of meaning gives another number, and pictures are searched anew.
-pub(crate) const VERSION: u32 = 2;
+pub(crate) const VERSION: u32 = 3;
 /// Plates and bowls are wider; cups, mugs and drinking glasses are not. A study may set another limit.
 pub const LEAST_DIAMETER_MM: f64 = 90.0;
 /// Fewer points do not hold a rim.

@@ -38,6 +38,11 @@ pub(super) struct Ray {
 }
 
 impl Ray {
+    #[cfg(test)]
+    pub(super) fn new(unit: [f64; 2], edges_px: Vec<f64>, colours: Vec<Option<[f64; 3]>>, inward_px: f64) -> Self {
+        Self { unit, edges_px, colours, inward_px }
+    }
+
     /// Distance of the edge that is nearest to a place, outside it, in pixels.
     pub(super) fn nearest(&self, at_px: f64) -> Option<f64> {
         self.edges_px.iter().map(|edge| edge - at_px).min_by(|a, b| a.abs().total_cmp(&b.abs()))
@@ -165,7 +170,7 @@ mod tests {
         let edges_px = edges(&colours, 10.0);
         assert_eq!(edges_px.len(), 1, "{edges_px:?}");
         assert!((edges_px[0] - 3.0).abs() < 0.3, "{edges_px:?}");
-        let ray = Ray { unit: [1.0, 0.0], edges_px, colours, inward_px: 10.0 };
+        let ray = Ray::new([1.0, 0.0], edges_px, colours, 10.0);
         assert!(ray.nearest(1.0).unwrap() > 1.0);
         assert!((ray.mean(6.0, 9.0).unwrap()[1] - ray.mean(-5.0, 0.0).unwrap()[1] - 40.0).abs() < 1.0);
         assert_eq!(ray.mean(-12.0, 0.0), None);

@@ -88,3 +88,57 @@ fn apart_in_hue(a: [f64; 3], b: [f64; 3]) -> f64 {
     let brighter = dot(a, b) / dot(a, a).max(1e-9);
     apart(a.map(|level| level * brighter), b)
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+    use super::{Edge, Moved, Ray, odds};
+
+    const CONTAINER: [f64; 3] = [190.0, 120.0, 100.0];
+    const TABLE: [f64; 3] = [90.0, 130.0, 100.0];
+
+    /// Rays over a container, a ring of four pixels outside it and the table; one direction in three shows something else.
+    fn rays(ring: [f64; 3]) -> Vec<Ray> {
+        let directions = (0..60).map(|i| f64::from(i) / 60.0 * std::f64::consts::TAU);
+        directions
+            .enumerate()
+            .map(|(i, angle)| {
+                let is_hidden = i % 3 == 0;
+                let colour = |px: f64| match px {
+                    _ if is_hidden => [40.0 + 2.0 * px, 40.0, 60.0],
+                    _ if px < 0.0 => CONTAINER,
+                    _ if px < 4.0 => ring,
+                    _ => TABLE,
+                };
+                let colours = (0..80).map(|k| Some(colour(0.5 * f64::from(k) - 20.0))).collect();
+                Ray::new([angle.cos(), angle.sin()], vec![0.0, 4.0], colours, 20.0)
+            })
+            .collect()
+    }
+
+    fn odds_of(ring: [f64; 3], outer_seen: f64) -> f64 {
+        let edge = |px: f64, seen: f64| Edge { moved: Moved::new(0.0, 0.0, px), seen };
+        odds(&rays(ring), &edge(0.0, 0.9), &edge(4.0, outer_seen)).unwrap()
+    }
+
+    #[test]
+    fn a_lip_belongs_to_the_rim_and_a_shadow_does_not() {
+        assert!(odds_of([200.0, 130.0, 110.0], 0.5) > 1.0, "a lip, a little brighter than what is within");
+        assert!(odds_of(TABLE.map(|level| 0.6 * level), 0.5) < -1.0, "a shadow on the table");
+        assert!(odds_of(TABLE.map(|level| level + 6.0), 0.5) < -1.0, "a brighter stripe of the table");
+        assert!(odds_of([30.0, 40.0, 160.0], 0.9) > 1.0, "a printed ring that is like neither");
+    }
+
+    #[test]
+    fn what_is_seen_better_is_likelier_the_rim() {
+        let ring = [140.0, 125.0, 100.0];
+        assert!(odds_of(ring, 0.9) > odds_of(ring, 0.5) + 1.0);
+    }
+
+    #[test]
+    fn edges_too_near_to_each_other_tell_nothing() {
+        let edge = |px: f64| Edge { moved: Moved::new(0.0, 0.0, px), seen: 0.9 };
+        assert!(odds(&rays(CONTAINER), &edge(0.0), &edge(0.5)).is_none());
+    }
+}
