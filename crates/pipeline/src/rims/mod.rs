@@ -1,11 +1,11 @@
 //! Rims of plates and bowls found without marks.
 //!
 //! The pose is known, so a level circle at any height is a circle on the plane Z = 0 ([`ground`]). Edges of the picture at a
-//! reduced scale are linked to chains ([`edges`], [`chains`]), carried to that plane, and vote there for circles
-//! ([`votes`]); likely circles are fitted ([`arcs`]), carried from inner to outer edges ([`outward`]), weighed against
-//! chance ([`significance`]), and one per container is kept ([`select`]). In the full picture the outer edge is found
-//! ([`lip`], [`rays`], [`rings`]) and followed ([`refine`]). The height comes from foot and wall below the rim and the floor within it ([`height`],
-//! [`wall`], [`floor`]).
+//! reduced scale are linked to chains ([`edges`], [`chains`]), carried to that plane, and vote there for circles ([`votes`]);
+//! likely circles are fitted ([`arcs`], [`fitting`], [`support`]; four edges at a time, [`lanes`]), carried from inner to
+//! outer edges ([`outward`]), weighed against chance ([`significance`]), and one per container is kept ([`select`]). In the
+//! full picture the outer edge is found ([`lip`], [`rays`], [`rings`]) and followed ([`refine`]). The height comes from foot
+//! and wall below the rim and the floor within it ([`height`], [`wall`], [`floor`]).
 //!
 //! A found rim becomes the same [`ObjectMarks`] as a person's marks, and is measured by the same code.
 
