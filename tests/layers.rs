@@ -15,7 +15,7 @@ const LAYERS: [(&str, &[&str]); 6] = [
 ];
 
 /// Crates with few homes, and why.
-const HOMES: [(&[&str], &[&str], &str); 9] = [
+const HOMES: [(&[&str], &[&str], &str); 10] = [
     (&["mcap", "foxglove", "prost"], &["ingest"], "only ingest knows what a recording looks like inside"),
     (
         // simulate writes pictures, which is no decoding; ingest writes small ones for reports and viewers.
@@ -28,6 +28,7 @@ const HOMES: [(&[&str], &[&str], &str); 9] = [
     (&["rusqlite", "redb"], &["pipeline"], "what is kept between runs is pipeline's alone"),
     (&["askama"], &["report"], "pages and figures are made from results alone"),
     (&["quick-xml"], &["pipeline"], "XML is a format of marks alone, from CVAT"),
+    (&["wide"], &["pipeline"], "of all loops, only the search for rims asks for a processor's lanes by name"),
     (&["polars", "arrow", "parquet"], &["report"], "it is most of the build, and rows go through model::ResultSink"),
     (
         &["clap", "indicatif", "miette", "anyhow", "tracing-subscriber", "signal-hook"],

@@ -1,6 +1,9 @@
 //! Edges on the plane, sorted into squares for quick finding.
 
+use std::ops::Range;
+
 use super::ground::GroundEdge;
+use super::lanes::Lanes;
 use super::votes::Disc;
 
 /// Squares along the longer side of the searched ground.
@@ -16,6 +19,7 @@ pub(super) struct Buckets {
     /// First edge of each square; one more at the end.
     starts: Vec<u32>,
     edges: Vec<GroundEdge>,
+    lanes: Lanes,
 }
 
 impl Buckets {
@@ -43,12 +47,29 @@ impl Buckets {
             sorted[places[square] as usize] = *e;
             places[square] += 1;
         }
-        Self { left, near, side, columns, rows, starts, edges: sorted }
+        let lanes = Lanes::of(&sorted);
+        Self { left, near, side, columns, rows, starts, edges: sorted, lanes }
     }
 
     /// Calls `take` with each edge whose distance from the disc's rim is at most `width` (mm).
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "squares")]
+    #[expect(clippy::cast_possible_truncation, reason = "mm")]
     pub(super) fn near_rim(&self, disc: &Disc, width: f32, mut take: impl FnMut(&GroundEdge)) {
+        let (x, y, radius) = (disc.x as f32, disc.y as f32, disc.radius as f32);
+        let (outer, inner) = (radius + width, (radius - width).max(0.0));
+        self.ranges_near(disc, width, |range| {
+            for e in &self.edges[range] {
+                let (dx, dy) = (e.x - x, e.y - y);
+                let squared = dx * dx + dy * dy;
+                if squared <= outer * outer && squared >= inner * inner {
+                    take(e);
+                }
+            }
+        });
+    }
+
+    /// Calls `take` with places of edges among which are all that are within `width` (mm) of the disc's rim.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "squares")]
+    pub(super) fn ranges_near(&self, disc: &Disc, width: f32, mut take: impl FnMut(Range<usize>)) {
         let (x, y, radius) = (disc.x as f32, disc.y as f32, disc.radius as f32);
         let (outer, inner) = (radius + width, (radius - width).max(0.0));
         let index = |v: f32, most: usize| ((v / self.side).max(0.0) as usize).min(most);
@@ -57,12 +78,8 @@ impl Buckets {
                 (index(from - self.left, self.columns), index(to - self.left + self.side, self.columns));
             let base = row * self.columns;
             let range = self.starts[base + first] as usize..self.starts[base + last.max(first)] as usize;
-            for e in &self.edges[range] {
-                let (dx, dy) = (e.x - x, e.y - y);
-                let squared = dx * dx + dy * dy;
-                if squared <= outer * outer && squared >= inner * inner {
-                    take(e);
-                }
+            if !range.is_empty() {
+                take(range);
             }
         };
         for row in index(y - outer - self.near, self.rows)..index(y + outer - self.near + self.side, self.rows) {
@@ -80,15 +97,13 @@ impl Buckets {
         }
     }
 
+    /// Their numbers, in the order of [`Self::ranges_near`].
+    pub(super) fn lanes(&self) -> &Lanes {
+        &self.lanes
+    }
+
     /// All edges.
     pub(super) fn edges(&self) -> &[GroundEdge] {
         &self.edges
-    }
-
-    /// Edges near a rim, copied.
-    pub(super) fn ring(&self, disc: &Disc, width: f32) -> Vec<GroundEdge> {
-        let mut found = Vec::new();
-        self.near_rim(disc, width, |e| found.push(*e));
-        found
     }
 }

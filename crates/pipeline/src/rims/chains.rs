@@ -16,8 +16,7 @@ pub(super) fn chains(found: &Edges) -> Vec<Vec<u32>> {
         for x in 1..found.width - 1 {
             let index = found.at[y * found.width + x];
             if index != NONE {
-                next[index as usize] = best_neighbour(found, x, y, index, 1.0);
-                previous[index as usize] = best_neighbour(found, x, y, index, -1.0);
+                (previous[index as usize], next[index as usize]) = best_neighbours(found, x, y, index);
             }
         }
     }
@@ -52,30 +51,33 @@ pub(super) fn chains(found: &Edges) -> Vec<Vec<u32>> {
     chains
 }
 
-/// The nearest edge among the eight neighbours ahead (`sense` 1) or behind (-1) whose gradient points alike.
-fn best_neighbour(found: &Edges, x: usize, y: usize, index: u32, sense: f32) -> u32 {
+/// The nearest edges among the eight neighbours whose gradients point alike: one behind and one ahead.
+fn best_neighbours(found: &Edges, x: usize, y: usize, index: u32) -> (u32, u32) {
     let e = found.edges[index as usize];
-    let size = e.gx.hypot(e.gy);
-    let (tx, ty) = (sense * e.gy / size, -sense * e.gx / size);
-    let (mut best, mut best_cost) = (NONE, f32::INFINITY);
+    let size = (e.gx * e.gx + e.gy * e.gy).sqrt();
+    let (tx, ty) = (e.gy / size, -e.gx / size);
+    let (mut before, mut before_cost) = (NONE, f32::INFINITY);
+    let (mut after, mut after_cost) = (NONE, f32::INFINITY);
     for row in y - 1..=y + 1 {
-        for column in x - 1..=x + 1 {
-            let other = found.at[row * found.width + column];
-            if other == NONE || other == index {
+        let first = row * found.width + x - 1;
+        for other in &found.at[first..first + 3] {
+            if *other == NONE || *other == index {
                 continue;
             }
-            let o = found.edges[other as usize];
+            let o = found.edges[*other as usize];
             let (dx, dy) = (o.x - e.x, o.y - e.y);
             let ahead = dx * tx + dy * ty;
-            let alike = (e.gx * o.gx + e.gy * o.gy) / (size * o.gx.hypot(o.gy));
-            if ahead <= 0.0 || alike < LEAST_COSINE {
+            let cost = (dx * ty - dy * tx).abs() + 0.3 * ahead.abs();
+            let alike = e.gx * o.gx + e.gy * o.gy;
+            if alike < LEAST_COSINE * size * (o.gx * o.gx + o.gy * o.gy).sqrt() {
                 continue;
             }
-            let cost = (dx * ty - dy * tx).abs() + 0.3 * ahead;
-            if cost < best_cost {
-                (best, best_cost) = (other, cost);
+            if ahead > 0.0 && cost < after_cost {
+                (after, after_cost) = (*other, cost);
+            } else if ahead < 0.0 && cost < before_cost {
+                (before, before_cost) = (*other, cost);
             }
         }
     }
-    best
+    (before, after)
 }

@@ -1,5 +1,7 @@
 //! Edges with sub-pixel places: where brightness or colour changes fastest along its gradient.
 
+use wide::{CmpGt, f32x4};
+
 use super::scaled::Scaled;
 
 /// One edge pixel, in pixels of the scaled picture.
@@ -69,30 +71,38 @@ impl Gradient {
         let (width, height) = (scaled.width, scaled.height);
         let empty = || vec![0.0_f32; width * height];
         let mut found = Self { x: empty(), y: empty(), size: empty() };
-        for plane in &scaled.planes {
-            let smooth = smoothed(plane, width);
-            for y in 1..height - 1 {
-                let above = &smooth[(y - 1) * width..y * width];
-                let here = &smooth[y * width..(y + 1) * width];
-                let below = &smooth[(y + 1) * width..(y + 2) * width];
-                let inner = y * width + 1..(y + 1) * width - 1;
-                let out =
-                    found.x[inner.clone()].iter_mut().zip(&mut found.y[inner.clone()]).zip(&mut found.size[inner]);
-                let sides = here.windows(3).zip(above[1..].iter().zip(&below[1..]));
-                for (((x, y), size), (beside, (above, below))) in out.zip(sides) {
-                    let (gx, gy) = (0.5 * (beside[2] - beside[0]), 0.5 * (below - above));
-                    let squared = gx * gx + gy * gy;
-                    let larger = squared > *size;
-                    *x = if larger { gx } else { *x };
-                    *y = if larger { gy } else { *y };
-                    *size = if larger { squared } else { *size };
-                }
+        let mut planes = [(); 3].map(|()| Smoothed::new(width));
+        for y in 0..height + 2 {
+            for (smoothed, plane) in planes.iter_mut().zip(&scaled.planes) {
+                smoothed.take(plane, y, height);
+            }
+            // The row before the one that became smooth last has both neighbours.
+            if y >= 4 {
+                found.set_row(&planes, y - 3, width);
             }
         }
-        for size in &mut found.size {
-            *size = size.sqrt();
-        }
         found
+    }
+
+    /// The gradient of one row, of the plane that changes most at each place.
+    fn set_row(&mut self, planes: &[Smoothed; 3], y: usize, width: usize) {
+        let row = y * width..(y + 1) * width;
+        let (gx, gy, sizes) = (&mut self.x[row.clone()], &mut self.y[row.clone()], &mut self.size[row]);
+        let lines = planes.each_ref().map(|plane| [plane.line(y - 1), plane.line(y), plane.line(y + 1)]);
+        // Four at a time; the last four may be in part the same as those before.
+        for x in (1..width - LANES).step_by(LANES).chain([width - 1 - LANES]) {
+            let (mut most_x, mut most_y, mut size) = (f32x4::ZERO, f32x4::ZERO, f32x4::ZERO);
+            for [above, here, below] in lines {
+                let (dx, dy) = (four(here, x + 1) - four(here, x - 1), four(below, x) - four(above, x));
+                let squared = dx * dx + dy * dy;
+                let larger = squared.cmp_gt(size);
+                (most_x, most_y) = (larger.blend(dx, most_x), larger.blend(dy, most_y));
+                size = larger.blend(squared, size);
+            }
+            set(gx, x, most_x * f32x4::HALF);
+            set(gy, x, most_y * f32x4::HALF);
+            set(sizes, x, size.sqrt() * f32x4::HALF);
+        }
     }
 
     /// Standard deviation of a component where the picture is quiet: from the lower quartile of the sizes.
@@ -126,23 +136,62 @@ impl Gradient {
     }
 }
 
-/// A plane smoothed by the binomial filter 1-4-6-4-1 (about a Gaussian of one pixel) along rows and columns. A border of two
-/// pixels stays as it is.
-fn smoothed(plane: &[f32], width: usize) -> Vec<f32> {
-    let mut rows = plane.to_vec();
-    for (row, out) in plane.chunks_exact(width).zip(rows.chunks_exact_mut(width)) {
-        for (w, o) in row.windows(5).zip(&mut out[2..]) {
-            *o = (w[0] + w[4] + 4.0 * (w[1] + w[3]) + 6.0 * w[2]) / 16.0;
+/// Numbers worked on together.
+const LANES: usize = 4;
+
+fn four(numbers: &[f32], at: usize) -> f32x4 {
+    f32x4::from(numbers.get(at..).and_then(|some| some.first_chunk()).copied().unwrap_or_default())
+}
+
+fn set(numbers: &mut [f32], at: usize, four: f32x4) {
+    if let Some(chunk) = numbers.get_mut(at..).and_then(|some| some.first_chunk_mut()) {
+        *chunk = four.to_array();
+    }
+}
+
+/// The last rows of a plane, smoothed by the binomial filter 1-4-6-4-1 (about a Gaussian of one pixel): no more than these are
+/// asked for at a time, and so few stay near to the processor.
+struct Smoothed {
+    /// Smoothed along the row; by the row's number modulo five.
+    rows: [Vec<f32>; 5],
+    /// Smoothed along the columns too; modulo three.
+    both: [Vec<f32>; 3],
+}
+
+impl Smoothed {
+    fn new(width: usize) -> Self {
+        Self { rows: [(); 5].map(|()| vec![0.0; width]), both: [(); 3].map(|()| vec![0.0; width]) }
+    }
+
+    /// Takes row `y`, if there is one: then the row two before it is smoothed. A border of two pixels stays as it is.
+    fn take(&mut self, plane: &[f32], y: usize, height: usize) {
+        if y < height {
+            let out = &mut self.rows[y % 5];
+            let width = out.len();
+            let row = &plane[y * width..(y + 1) * width];
+            for border in [0, 1, width - 2, width - 1] {
+                out[border] = row[border];
+            }
+            for (w, o) in row.windows(5).zip(&mut out[2..]) {
+                *o = (w[0] + w[4] + 4.0 * (w[1] + w[3]) + 6.0 * w[2]) * (1.0 / 16.0);
+            }
+        }
+        let Some(middle) = y.checked_sub(2) else { return };
+        let out = &mut self.both[middle % 3];
+        let width = out.len();
+        let row = |y: usize| &self.rows[y % 5][..width];
+        if middle < 2 || middle + 2 >= height {
+            out.copy_from_slice(row(middle));
+            return;
+        }
+        let (a, b, c, d, e) = (row(middle - 2), row(middle - 1), row(middle), row(middle + 1), row(middle + 2));
+        for (x, o) in out.iter_mut().enumerate() {
+            *o = (a[x] + e[x] + 4.0 * (b[x] + d[x]) + 6.0 * c[x]) * (1.0 / 16.0);
         }
     }
-    let mut both = rows.clone();
-    let height = plane.len() / width;
-    for y in 2..height - 2 {
-        let line = |dy: usize| &rows[(y + dy - 2) * width..(y + dy - 1) * width];
-        let (a, b, c, d, e) = (line(0), line(1), line(2), line(3), line(4));
-        for (x, o) in both[y * width..(y + 1) * width].iter_mut().enumerate() {
-            *o = (a[x] + e[x] + 4.0 * (b[x] + d[x]) + 6.0 * c[x]) / 16.0;
-        }
+
+    /// One of the last three smooth rows.
+    fn line(&self, y: usize) -> &[f32] {
+        &self.both[y % 3]
     }
-    both
 }

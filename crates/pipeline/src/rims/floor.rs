@@ -1,5 +1,7 @@
 //! The floor of a bowl or the well of a plate, seen within the rim.
 
+use wide::{CmpLt, f32x4};
+
 use super::arcs::Arc;
 use super::raster::{Chances, Odds, Raster, Sector};
 
@@ -26,16 +28,18 @@ pub(super) struct Floors<'a> {
     clear_mm: f64,
     camera_mm: f64,
     /// Unit vectors to the places that are looked at, which are the normals there.
-    places: [([f64; 2], Sector); PLACES],
+    places: [([f32x4; 2], [Sector; 4]); PLACES / 4],
 }
 
 impl<'a> Floors<'a> {
     /// `chances`: of edges that mean nothing. `scale`: mm per scaled pixel.
     pub(super) fn new(rim: &'a Arc, raster: &'a Raster, chances: &Chances, scale: f64, camera_mm: f64) -> Self {
-        let places = std::array::from_fn(|place| {
+        let places = std::array::from_fn(|four| {
             #[expect(clippy::cast_precision_loss, reason = "a few places")]
-            let angle = place as f64 / PLACES as f64 * std::f64::consts::TAU;
-            ([angle.cos(), angle.sin()], Sector::of(angle))
+            let angles = [0, 1, 2, 3].map(|i| (4 * four + i) as f64 / PLACES as f64 * std::f64::consts::TAU);
+            #[expect(clippy::cast_possible_truncation, reason = "a unit vector")]
+            let unit = [f64::cos, f64::sin].map(|of| f32x4::from(angles.map(|angle| of(angle) as f32)));
+            (unit, angles.map(Sector::of))
         });
         let clear_mm = (rim.disc.radius - CLEAR_PX * scale).max(0.0);
         Self { rim, raster, odds: chances.odds(SHOWS), clear_mm, camera_mm, places }
@@ -59,15 +63,17 @@ impl<'a> Floors<'a> {
     }
 
     /// The same of one circle, of what of it the near half of the rim does not hide.
+    #[expect(clippy::cast_possible_truncation, reason = "mm")]
     fn circle(&self, t: f64, ratio: f64) -> f64 {
         let rim = &self.rim.disc;
-        let radius = ratio * rim.radius * t;
+        let radius = f32x4::splat((ratio * rim.radius * t) as f32);
+        let [rim_x, rim_y, clear] = [rim.x, rim.y, self.clear_mm * self.clear_mm].map(|v| f32x4::splat(v as f32));
+        let (x, y) = (f32x4::splat((rim.x * t) as f32), f32x4::splat((rim.y * t) as f32));
         let mut sum = 0.0;
-        for ([cos, sin], normal) in self.places {
-            let at = [rim.x * t + radius * cos, rim.y * t + radius * sin];
-            if (at[0] - rim.x).powi(2) + (at[1] - rim.y).powi(2) < self.clear_mm * self.clear_mm {
-                sum += self.raster.says(at, normal, &self.odds);
-            }
+        for ([cos, sin], normals) in self.places {
+            let at = [x + radius * cos, y + radius * sin];
+            let (dx, dy) = (at[0] - rim_x, at[1] - rim_y);
+            sum += self.raster.says_of_four(at, (dx * dx + dy * dy).cmp_lt(clear), normals, &self.odds);
         }
         sum
     }

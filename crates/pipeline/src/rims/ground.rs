@@ -7,7 +7,7 @@ use model::View;
 use nalgebra::{Point2, Vector2, Vector3};
 
 use super::chains::chains;
-use super::edges::Edges;
+use super::edges::{Edge, Edges};
 use super::scaled::Scaled;
 
 /// Rays are worked out exactly this many scaled pixels apart, and interpolated between: lenses bend slowly.
@@ -59,44 +59,89 @@ impl Rays {
 
     /// The place on Z = 0 that a place of the scaled picture shows.
     #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pixels")]
-    fn on_ground(&self, x: f64, y: f64) -> Option<Vector2<f64>> {
+    fn on_ground(&self, x: f64, y: f64) -> Option<Shown> {
         let (u, v) = (x.max(0.0) / GRID_STEP as f64, y.max(0.0) / GRID_STEP as f64);
-        let (column, row) = ((u as usize).min(self.columns - 2), (v as usize).min(self.rows - 2));
+        // By way of i32, which is quicker.
+        let (column, row) = ((u as i32 as usize).min(self.columns - 2), (v as i32 as usize).min(self.rows - 2));
         let (u, v) = (u - column as f64, v - row as f64);
         let ray = |c: usize, r: usize| self.in_world[(row + r) * self.columns + column + c];
-        let top = ray(0, 0)? * (1.0 - u) + ray(1, 0)? * u;
-        let bottom = ray(0, 1)? * (1.0 - u) + ray(1, 1)? * u;
+        let (first, second, third, fourth) = (ray(0, 0)?, ray(1, 0)?, ray(0, 1)?, ray(1, 1)?);
+        let (top, bottom) = (first * (1.0 - u) + second * u, third * (1.0 - u) + fourth * u);
         let ray = top * (1.0 - v) + bottom * v;
-        if -ray.z <= LEAST_DEPRESSION_SINE * ray.norm() {
+        if ray.z >= 0.0 || ray.z * ray.z <= LEAST_DEPRESSION_SINE * LEAST_DEPRESSION_SINE * ray.norm_squared() {
             return None;
         }
-        Some(ray.xy() * (self.camera_height_mm / -ray.z))
+        let per_px = 1.0 / GRID_STEP as f64;
+        let by_x = ((second - first) * (1.0 - v) + (fourth - third) * v) * per_px;
+        let by_y = (bottom - top) * per_px;
+        let stretch = self.camera_height_mm / -ray.z;
+        let at = ray.xy() * stretch;
+        let moved = |by: Vector3<f64>| by.xy() * stretch - at * (by.z / ray.z);
+        Some(Shown { at, right: moved(by_x), down: moved(by_y) })
+    }
+}
+
+/// A place on Z = 0 that the picture shows, in mm, and how far from it the next pixels to the right and below are.
+#[derive(Clone, Copy)]
+struct Shown {
+    at: Vector2<f64>,
+    right: Vector2<f64>,
+    down: Vector2<f64>,
+}
+
+/// Neighbours on a chain that make one piece.
+const PIECE: usize = 2;
+
+/// What lies on the plane Z = 0.
+#[derive(Default)]
+pub(super) struct Ground {
+    /// Every edge of the chains.
+    pub edges: Vec<GroundEdge>,
+    /// The same, a few neighbours to a piece: enough to see where circles may be.
+    pub pieces: Vec<GroundEdge>,
+}
+
+/// Several neighbours on a chain as one.
+fn piece(edges: &[GroundEdge]) -> GroundEdge {
+    let sum = |of: fn(&GroundEdge) -> f32| edges.iter().map(of).sum::<f32>();
+    #[expect(clippy::cast_precision_loss, reason = "a handful of edges")]
+    let mean = |of: fn(&GroundEdge) -> f32| sum(of) / edges.len() as f32;
+    let (nx, ny) = (sum(|e| e.nx), sum(|e| e.ny));
+    let size = (nx * nx + ny * ny).sqrt().max(1e-6);
+    GroundEdge {
+        x: mean(|e| e.x),
+        y: mean(|e| e.y),
+        nx: nx / size,
+        ny: ny / size,
+        length: sum(|e| e.length),
+        scale: mean(|e| e.scale),
+        worst_scale: mean(|e| e.worst_scale),
+        contrast: mean(|e| e.contrast),
     }
 }
 
 /// The chains of a picture's edges on the plane Z = 0.
-pub(super) fn ground_edges(view: &View, scaled: &Scaled) -> Vec<GroundEdge> {
+pub(super) fn ground_edges(view: &View, scaled: &Scaled) -> Ground {
     let found = Edges::of(scaled);
     let rays = Rays::of(view, scaled);
-    let mut all = Vec::new();
+    let mut ground = Ground::default();
+    let mut places: Vec<(Edge, Option<Shown>)> = Vec::new();
     for chain in chains(&found) {
-        let places: Vec<_> = chain
-            .iter()
-            .map(|i| {
-                let e = found.edges[*i as usize];
-                (e, rays.on_ground(f64::from(e.x), f64::from(e.y)))
-            })
-            .collect();
+        let before = ground.edges.len();
+        places.clear();
+        places.extend(chain.iter().map(|i| {
+            let e = found.edges[*i as usize];
+            (e, rays.on_ground(f64::from(e.x), f64::from(e.y)))
+        }));
         for i in 0..places.len() {
             let (before, after) = (i.saturating_sub(CHORD), (i + CHORD).min(places.len() - 1));
             let (e, here) = places[i];
             let (first, last) = (places[before], places[after]);
             let (Some(here), Some(start), Some(end)) = (here, first.1, last.1) else { continue };
-            let chord = end - start;
-            let chord_px = f64::from(last.0.x - first.0.x).hypot(f64::from(last.0.y - first.0.y));
-            let (x, y) = (f64::from(e.x), f64::from(e.y));
-            let (Some(right), Some(down)) = (rays.on_ground(x + 1.0, y), rays.on_ground(x, y + 1.0)) else { continue };
-            let (right, down) = (right - here, down - here);
+            let chord = end.at - start.at;
+            let (wide_px, high_px) = (f64::from(last.0.x - first.0.x), f64::from(last.0.y - first.0.y));
+            let chord_px = (wide_px * wide_px + high_px * high_px).sqrt();
+            let Shown { at: here, right, down } = here;
             let along = chord.norm() / chord_px;
             if !(along > 0.0 && along.is_finite()) {
                 continue;
@@ -105,7 +150,7 @@ pub(super) fn ground_edges(view: &View, scaled: &Scaled) -> Vec<GroundEdge> {
             #[expect(clippy::cast_precision_loss, reason = "a handful of edges")]
             let length = chord.norm() / (after - before) as f64;
             #[expect(clippy::cast_possible_truncation, reason = "mm on a table")]
-            all.push(GroundEdge {
+            ground.edges.push(GroundEdge {
                 x: here.x as f32,
                 y: here.y as f32,
                 nx: tangent.y as f32,
@@ -113,9 +158,10 @@ pub(super) fn ground_edges(view: &View, scaled: &Scaled) -> Vec<GroundEdge> {
                 length: length as f32,
                 scale: (right.perp(&down).abs() / along) as f32,
                 worst_scale: right.norm().max(down.norm()) as f32,
-                contrast: e.gx.hypot(e.gy),
+                contrast: (e.gx * e.gx + e.gy * e.gy).sqrt(),
             });
         }
+        ground.pieces.extend(ground.edges[before..].chunks(PIECE).map(piece));
     }
-    all
+    ground
 }

@@ -1,11 +1,11 @@
 //! Rims of plates and bowls found without marks.
 //!
 //! The pose is known, so a level circle at any height is a circle on the plane Z = 0 ([`ground`]). Edges of the picture at a
-//! reduced scale are linked to chains ([`edges`], [`chains`]), carried to that plane, and vote there for circles
-//! ([`votes`]); likely circles are fitted ([`arcs`]), carried from inner to outer edges ([`outward`]), weighed against
-//! chance ([`significance`]), and one per container is kept ([`select`]). In the full picture the outer edge is found
-//! ([`lip`], [`rays`], [`rings`]) and followed ([`refine`]). The height comes from foot and wall below the rim and the floor within it ([`height`],
-//! [`wall`], [`floor`]).
+//! reduced scale are linked to chains ([`edges`], [`chains`]), carried to that plane, and vote there for circles ([`votes`]);
+//! likely circles are fitted ([`arcs`], [`fitting`], [`support`]; four edges at a time, [`lanes`]), carried from inner to
+//! outer edges ([`outward`]), weighed against chance ([`significance`]), and one per container is kept ([`select`]). In the
+//! full picture the outer edge is found ([`lip`], [`rays`], [`rings`]) and followed ([`refine`]). The height comes from foot
+//! and wall below the rim and the floor within it ([`height`], [`wall`], [`floor`]).
 //!
 //! Rectangles are found among the same edges, where they are asked for ([`squares`]).
 //!
@@ -15,10 +15,12 @@ mod arcs;
 mod buckets;
 mod chains;
 mod edges;
+mod fitting;
 mod floor;
 mod found;
 mod ground;
 mod height;
+mod lanes;
 mod lip;
 #[cfg(test)]
 mod lip_tests;
@@ -34,6 +36,7 @@ mod shapes;
 mod significance;
 mod sizes;
 mod squares;
+mod support;
 #[cfg(test)]
 mod tests;
 mod votes;
@@ -135,15 +138,15 @@ pub fn find_rims_of(picture: &Picture, view: &View, shapes: &[RimShape]) -> Resu
         return Err(RimError::Bytes { found: picture.rgb.len(), expected });
     }
     let scaled = Scaled::of(picture, view.camera().focal_px()[0]);
-    let edges = ground::ground_edges(view, &scaled);
+    let ground = ground::ground_edges(view, &scaled);
     let mut rims = Vec::new();
     if shapes.contains(&RimShape::Circle) {
-        let buckets = Buckets::new(&edges);
-        let found = search::rims(view, &buckets);
+        let (buckets, pieces) = (Buckets::new(&ground.edges), Buckets::new(&ground.pieces));
+        let found = search::rims(view, &buckets, &pieces);
         rims.extend(found.iter().filter_map(|found| in_full(picture, view, &buckets, found, scaled.factor)));
     }
     if shapes.contains(&RimShape::Rectangle) {
-        let squares = squares::squares(picture, view, &edges, scaled.factor);
+        let squares = squares::squares(picture, view, &ground.edges, scaled.factor);
         rims.extend(squares.into_iter().map(|square| square.rim(view)));
     }
     rims.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));

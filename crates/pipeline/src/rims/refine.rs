@@ -122,15 +122,18 @@ pub(super) fn colour(picture: &Picture, at: Point2<f64>) -> Option<[f64; 3]> {
     if !(at.x >= 0.0 && at.y >= 0.0) {
         return None;
     }
-    let (column, row) = (at.x as usize, at.y as usize);
+    // By way of i32, which is quicker.
+    let (left, above) = (at.x as i32, at.y as i32);
+    let (column, row) = (left as usize, above as usize);
     if column + 1 >= width || row + 1 >= height {
         return None;
     }
-    let (u, v) = (at.x.fract(), at.y.fract());
-    let byte = |dx: usize, dy: usize, c: usize| f64::from(picture.rgb[3 * ((row + dy) * width + column + dx) + c]);
+    let (u, v) = (at.x - f64::from(left), at.y - f64::from(above));
+    let first = 3 * (row * width + column);
+    let top = picture.rgb.get(first..)?.first_chunk::<6>()?;
+    let bottom = picture.rgb.get(first + 3 * width..)?.first_chunk::<6>()?;
     Some([0, 1, 2].map(|c| {
-        let top = byte(0, 0, c) * (1.0 - u) + byte(1, 0, c) * u;
-        let bottom = byte(0, 1, c) * (1.0 - u) + byte(1, 1, c) * u;
-        top * (1.0 - v) + bottom * v
+        let between = |line: &[u8; 6]| f64::from(line[c]) * (1.0 - u) + f64::from(line[c + 3]) * u;
+        between(top) * (1.0 - v) + between(bottom) * v
     }))
 }

@@ -1,8 +1,10 @@
 //! The search: from a picture to scored circles on the plane Z = 0.
 
+use std::cell::OnceCell;
+
 use model::View;
 
-use super::arcs::{self, Arc};
+use super::arcs::{self, Arc, Rough};
 use super::buckets::Buckets;
 use super::outward::outermost;
 use super::select::{self, Scored};
@@ -20,6 +22,8 @@ const SAME: f64 = 0.02;
 /// Circles less likely than this are not followed up, and not told in the end.
 const WORTH_A_TRY: f64 = 0.05;
 const LEAST_CONFIDENCE: f64 = 0.2;
+/// As many of the circles voted for, those with most of their bins covered after rough steps, are fitted finely at first.
+const FINE: usize = 64;
 /// As many of the likeliest circles of a container are led outward.
 const LED_OUTWARD: usize = 6;
 /// Circles nearer to each other than this share of the radius may end at the same rim.
@@ -30,24 +34,29 @@ fn most_oval(view: &View, disc: &Disc) -> f64 {
     ROUND + 0.5 * POSE_ERROR_RAD * disc.x.hypot(disc.y) / view.pose().camera_height_mm()
 }
 
-/// The rims of a picture, the likeliest first.
-pub(super) fn rims(view: &View, buckets: &Buckets) -> Vec<Scored> {
+/// The rims of a picture, the likeliest first, by its edges and by pieces of chains of them.
+pub(super) fn rims(view: &View, buckets: &Buckets, pieces: &Buckets) -> Vec<Scored> {
     let camera_mm = view.pose().camera_height_mm();
     let score = |arc: Arc| {
         let evidence = Evidence::of(view, &arc);
         Scored { confidence: evidence.rank(), evidence, best: evidence, arc }
     };
-    let likely = likely_discs(buckets.edges(), RADII_MM);
+    let likely = likely_discs(pieces.edges(), RADII_MM);
     // Each of the circles voted for is fitted once, if ever.
+    let roughs: Vec<OnceCell<Option<Rough>>> = vec![OnceCell::new(); likely.all.len()];
+    let rough = |i: usize| roughs[i].get_or_init(|| arcs::rough(pieces, &likely.all[i])).as_ref();
     let mut fits: Vec<Option<Option<Arc>>> = vec![None; likely.all.len()];
     let mut fitted = |discs: &[usize]| -> Vec<Scored> {
         let arcs = discs.iter().filter_map(|i| {
-            let disc = &likely.all[*i];
-            fits[*i].get_or_insert_with(|| arcs::fit(buckets, disc, most_oval(view, disc))).clone()
+            let fine = |rough| arcs::fine(buckets, rough, most_oval(view, &likely.all[*i]));
+            fits[*i].get_or_insert_with(|| rough(*i).and_then(fine)).clone()
         });
         distinct(arcs.filter(|arc| arc.disc.radius >= RADII_MM[0]).collect()).into_iter().map(score).collect()
     };
-    let found = select::one_per_container(fitted(&likely.peaks), camera_mm, WORTH_A_TRY);
+    let mut first: Vec<(usize, f64)> = likely.peaks.iter().filter_map(|i| Some((*i, rough(*i)?.coverage))).collect();
+    first.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let first: Vec<usize> = first.iter().map(|(i, _)| *i).take(FINE).collect();
+    let found = select::one_per_container(fitted(&first), camera_mm, WORTH_A_TRY);
     // A fit may end beside the best one, or on an inner edge: whatever was voted for nearby is tried as well, and led outward.
     let polished = found.into_iter().flat_map(|found| {
         let is_near = |i: &usize| are_near(&likely.all[*i], &found.arc.disc);

@@ -1,4 +1,6 @@
-//! Voting for circles: every edge names the centres, on both sides of it, of all circles that it may be part of.
+//! Voting for circles: every piece of a chain names the centres, on both sides of it, of all circles that it may be part of.
+
+use wide::{CmpLe, f32x4};
 
 use super::ground::GroundEdge;
 
@@ -31,16 +33,19 @@ const PEAKS: usize = 20;
 const MOST: usize = 160;
 /// A peak is at least this share of a circle; chance included.
 const LEAST_SHARE: f32 = 0.2;
+/// Cells of a row that are looked at together.
+const GROUP: usize = 32;
 /// Cells of a layer; a layer that would have more is not searched.
 const MOST_CELLS: usize = 1 << 21;
 
 /// Likely circles with radii between the limits (mm on the plane Z = 0).
 pub(super) fn likely_discs(edges: &[GroundEdge], [smallest, largest]: [f64; 2]) -> Likely {
     let mut found = Vec::new();
+    let voters = Voters::of(edges);
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let (mut radius, largest) = (smallest as f32, largest as f32);
     while radius <= largest {
-        if let Some(layer) = Layer::of(edges, radius) {
+        if let Some(layer) = Layer::of(&voters, radius) {
             found.extend(layer.peaks());
         }
         radius *= LAYER_RATIO;
@@ -72,18 +77,47 @@ struct Layer {
     shares: Vec<f32>,
 }
 
+/// Voters worked on together.
+const LANES: usize = 4;
+
+/// Some of those that vote, number by number, so that a processor takes several at once.
+#[derive(Clone, Copy)]
+struct Voters {
+    x: [f32; LANES],
+    y: [f32; LANES],
+    nx: [f32; LANES],
+    ny: [f32; LANES],
+    length: [f32; LANES],
+    worst_scale: [f32; LANES],
+}
+
+impl Voters {
+    /// In blocks; what fills the last one up never votes.
+    fn of(edges: &[GroundEdge]) -> Vec<Self> {
+        let nobody = [0.0; LANES];
+        let empty =
+            Self { x: nobody, y: nobody, nx: nobody, ny: nobody, length: nobody, worst_scale: [f32::INFINITY; LANES] };
+        let block = |some: &[GroundEdge]| {
+            let mut block = empty;
+            for (lane, e) in some.iter().enumerate() {
+                (block.x[lane], block.y[lane], block.nx[lane], block.ny[lane]) = (e.x, e.y, e.nx, e.ny);
+                (block.length[lane], block.worst_scale[lane]) = (e.length, e.worst_scale);
+            }
+            block
+        };
+        edges.chunks(LANES).map(block).collect()
+    }
+
+    /// Masks: whether each voter's place is known well enough for circles of this radius (mm).
+    fn fits(&self, radius: f32) -> f32x4 {
+        (f32x4::from(self.worst_scale) * f32x4::splat(LEAST_RADIUS_PX)).cmp_le(f32x4::splat(radius))
+    }
+}
+
 impl Layer {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells of a layer")]
-    fn of(edges: &[GroundEdge], radius: f32) -> Option<Self> {
-        let fits = |e: &&GroundEdge| e.worst_scale * LEAST_RADIUS_PX <= radius;
-        let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
-        for e in edges.iter().filter(fits) {
-            low = [low[0].min(e.x), low[1].min(e.y)];
-            high = [high[0].max(e.x), high[1].max(e.y)];
-        }
-        if low[0] > high[0] {
-            return None;
-        }
+    fn of(voters: &[Voters], radius: f32) -> Option<Self> {
+        let (low, high) = bounds(voters, radius)?;
         let cell = CELL * radius;
         let cells = |axis: usize| ((high[axis] - low[axis] + 2.0 * radius) / cell) as usize + 5;
         let (columns, rows) = (cells(0), cells(1));
@@ -91,38 +125,53 @@ impl Layer {
             return None;
         }
         let (left, near) = (low[0] - radius - 2.0 * cell, low[1] - radius - 2.0 * cell);
-        let mut layer = Self { radius, left, near, columns, rows, shares: vec![0.0; columns * rows] };
-        let per_mm = 1.0 / (std::f32::consts::TAU * radius);
-        for e in edges.iter().filter(fits) {
-            let share = e.length * per_mm;
+        let mut shares = vec![0.0; columns * rows];
+        let [per_mm, per_cell] = [1.0 / (std::f32::consts::TAU * radius), 1.0 / cell].map(f32x4::splat);
+        let [left4, near4, stride] = [left, near, columns as f32].map(f32x4::splat);
+        for block in voters {
+            let fits = block.fits(radius).move_mask();
+            if fits == 0 {
+                continue;
+            }
+            let share = (f32x4::from(block.length) * per_mm).to_array();
             for side in [radius, -radius] {
-                let column = ((e.x + side * e.nx - left) / cell) as usize;
-                let row = ((e.y + side * e.ny - near) / cell) as usize;
-                layer.shares[row * columns + column] += share;
+                let side = f32x4::splat(side);
+                let column = (f32x4::from(block.x) + side * f32x4::from(block.nx) - left4) * per_cell;
+                let row = (f32x4::from(block.y) + side * f32x4::from(block.ny) - near4) * per_cell;
+                let at = (whole(row) * stride + whole(column)).fast_trunc_int().to_array();
+                for lane in 0..LANES {
+                    if fits >> lane & 1 == 1 {
+                        shares[at[lane] as usize] += share[lane];
+                    }
+                }
             }
         }
-        Some(layer)
+        Some(Self { radius, left, near, columns, rows, shares })
     }
 
     /// The highest sums over three by three cells.
     #[expect(clippy::cast_precision_loss, reason = "cells of a layer")]
     fn peaks(&self) -> Vec<(Disc, f32)> {
         let sums = self.sums_of_nine();
+        let cell = CELL * self.radius;
         let mut peaks = Vec::new();
-        for row in 1..self.rows - 1 {
-            for column in 1..self.columns - 1 {
-                let at = row * self.columns + column;
-                let sum = sums[at];
-                if sum < LEAST_SHARE || !is_peak(&sums, self.columns, at) {
-                    continue;
+        for (row, line) in sums.chunks_exact(self.columns).enumerate().take(self.rows - 1).skip(1) {
+            for (group, some) in line.chunks(GROUP).enumerate() {
+                // Few are high enough: many are passed over at once.
+                if some.iter().fold(false, |any, sum| any | (*sum >= LEAST_SHARE)) {
+                    let columns = (group * GROUP).max(1)..(group * GROUP + some.len()).min(self.columns - 1);
+                    for column in columns {
+                        let at = row * self.columns + column;
+                        if sums[at] >= LEAST_SHARE && is_peak(&sums, self.columns, at) {
+                            let disc = Disc {
+                                x: f64::from(self.left + (column as f32 + 0.5) * cell),
+                                y: f64::from(self.near + (row as f32 + 0.5) * cell),
+                                radius: f64::from(self.radius),
+                            };
+                            peaks.push((disc, sums[at]));
+                        }
+                    }
                 }
-                let cell = CELL * self.radius;
-                let disc = Disc {
-                    x: f64::from(self.left + (column as f32 + 0.5) * cell),
-                    y: f64::from(self.near + (row as f32 + 0.5) * cell),
-                    radius: f64::from(self.radius),
-                };
-                peaks.push((disc, sum));
             }
         }
         peaks.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -131,22 +180,40 @@ impl Layer {
     }
 
     fn sums_of_nine(&self) -> Vec<f32> {
-        let mut along = vec![0.0; self.shares.len()];
-        for (row, out) in self.shares.chunks_exact(self.columns).zip(along.chunks_exact_mut(self.columns)) {
-            for (w, o) in row.windows(3).zip(&mut out[1..]) {
-                *o = w[0] + w[1] + w[2];
-            }
-        }
         let mut sums = vec![0.0; self.shares.len()];
+        let mut three = vec![0.0; self.columns];
         for row in 1..self.rows - 1 {
-            let line = |r: usize| &along[r * self.columns..(r + 1) * self.columns];
-            let (a, b, c) = (line(row - 1), line(row), line(row + 1));
-            for (x, o) in sums[row * self.columns..(row + 1) * self.columns].iter_mut().enumerate() {
-                *o = a[x] + b[x] + c[x];
+            let line = |r: usize| &self.shares[r * self.columns..(r + 1) * self.columns];
+            for (((o, a), b), c) in three.iter_mut().zip(line(row - 1)).zip(line(row)).zip(line(row + 1)) {
+                *o = a + b + c;
+            }
+            let out = &mut sums[row * self.columns + 1..(row + 1) * self.columns - 1];
+            for (o, ((a, b), c)) in out.iter_mut().zip(three.iter().zip(&three[1..]).zip(&three[2..])) {
+                *o = a + b + c;
             }
         }
         sums
     }
+}
+
+/// The whole parts of numbers of cells.
+fn whole(v: f32x4) -> f32x4 {
+    v.fast_trunc_int().round_float()
+}
+
+/// Corners (lowest and highest x and y, in mm) of what holds all that vote for circles of a radius.
+fn bounds(voters: &[Voters], radius: f32) -> Option<([f32; 2], [f32; 2])> {
+    let (mut low, mut high) = ([f32x4::splat(f32::INFINITY); 2], [f32x4::splat(f32::NEG_INFINITY); 2]);
+    for block in voters {
+        let fits = block.fits(radius);
+        for (axis, place) in [block.x, block.y].into_iter().enumerate() {
+            low[axis] = fits.blend(low[axis].fast_min(f32x4::from(place)), low[axis]);
+            high[axis] = fits.blend(high[axis].fast_max(f32x4::from(place)), high[axis]);
+        }
+    }
+    let low = low.map(|lanes| lanes.to_array().into_iter().fold(f32::INFINITY, f32::min));
+    let high = high.map(|lanes| lanes.to_array().into_iter().fold(f32::NEG_INFINITY, f32::max));
+    (low[0] <= high[0]).then_some((low, high))
 }
 
 fn is_peak(sums: &[f32], columns: usize, at: usize) -> bool {

@@ -107,9 +107,10 @@ impl<'a> Walls<'a> {
     pub(super) fn seen(&self, wall: &Wall) -> f64 {
         let levels = wall.levels(self.rim, self.camera_mm);
         let mut sum = 0.0;
+        let mut outer = Outermost::of(&levels);
         let mut last: Option<(usize, Place)> = None;
         for (i, direction) in self.directions.iter().enumerate() {
-            let outer = outermost(&levels, direction.cos);
+            let outer = outer.towards(direction.cos);
             let level = levels[outer];
             let place =
                 Place { along: level.moved + level.radius * direction.cos, across: level.radius * direction.sin };
@@ -160,14 +161,67 @@ impl<'a> Walls<'a> {
     }
 }
 
-/// The level that reaches furthest in a direction, by the cosine of its angle from the point under the camera.
-fn outermost(levels: &[Level; LEVELS], cos: f64) -> usize {
-    let (mut outer, mut most) = (0, f64::NEG_INFINITY);
-    for (i, level) in levels.iter().enumerate() {
-        let reach = level.moved * cos + level.radius;
-        if reach > most {
-            (outer, most) = (i, reach);
+/// The level that reaches furthest in a direction, for one direction after the other from the point under the camera on:
+/// higher levels are moved less, so they take over one by one.
+struct Outermost<'a> {
+    levels: &'a [Level; LEVELS],
+    level: usize,
+    /// The next one, and the cosine of the direction from which on it reaches further.
+    next: (usize, f64),
+}
+
+impl<'a> Outermost<'a> {
+    fn of(levels: &'a [Level; LEVELS]) -> Self {
+        let reach = |level: usize| levels[level].moved + levels[level].radius;
+        let level = (1..LEVELS).fold(0, |most, level| if reach(level) > reach(most) { level } else { most });
+        Self { levels, level, next: next(levels, level) }
+    }
+
+    /// The level in a direction by the cosine of its angle, no larger than the one before.
+    fn towards(&mut self, cos: f64) -> usize {
+        while cos < self.next.1 {
+            self.level = self.next.0;
+            self.next = next(self.levels, self.level);
+        }
+        self.level
+    }
+}
+
+/// The level that takes over from another one, and the cosine below which it does.
+fn next(levels: &[Level; LEVELS], from: usize) -> (usize, f64) {
+    let mut first = (from, f64::NEG_INFINITY);
+    for (level, upper) in levels.iter().enumerate().skip(from + 1) {
+        let lag = levels[from].moved - upper.moved;
+        let cos = (upper.radius - levels[from].radius) / lag;
+        if lag > 0.0 && cos >= first.1 {
+            first = (level, cos);
         }
     }
-    outer
+    first
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Level after level takes over where it reaches furthest.
+    #[test]
+    fn the_outermost_level_is_the_one_that_reaches_furthest() {
+        for foot in [0.3, 0.6, 1.0] {
+            for (height, away) in [(20.0, 250.0), (60.0, 400.0), (150.0, 90.0), (60.0, 0.0)] {
+                let levels: [Level; LEVELS] = std::array::from_fn(|level| {
+                    let share = level as f64 / (LEVELS - 1) as f64;
+                    let t = (450.0 - height) / (450.0 - share * height);
+                    Level { moved: away * (1.0 - t), radius: (foot + (1.0 - foot) * share.sqrt()) * 80.0 * t }
+                });
+                let mut outer = Outermost::of(&levels);
+                for degree in 0..180 {
+                    let cos = f64::from(degree).to_radians().cos();
+                    let reach = |level: &Level| level.moved * cos + level.radius;
+                    let most = levels.iter().map(reach).fold(f64::NEG_INFINITY, f64::max);
+                    assert!((reach(&levels[outer.towards(cos)]) - most).abs() < 1e-9, "{degree} degrees");
+                }
+            }
+        }
+    }
 }
