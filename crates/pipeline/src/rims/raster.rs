@@ -142,8 +142,8 @@ impl Raster {
         let mut sum = 0.0;
         for (lane, normal) in normals.into_iter().enumerate() {
             if counts >> lane & 1 == 1 {
-                let at = row[lane] as usize * self.columns + column[lane] as usize;
-                let bits = if is_inside >> lane & 1 == 1 { self.sectors[at] } else { 0 };
+                let cell = || row[lane] as usize * self.columns + column[lane] as usize;
+                let bits = if is_inside >> lane & 1 == 1 { self.sectors[cell()] } else { 0 };
                 sum += odds.0[usize::from(normal.0)][usize::from(bits >> normal.0 & 1)];
             }
         }
