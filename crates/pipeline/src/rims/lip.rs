@@ -168,3 +168,6 @@ fn shifted(arc: Arc, moved: Moved) -> Arc {
     arc.perimeter_px *= ratio;
     arc
 }
+
+#[cfg(test)]
+mod tests;

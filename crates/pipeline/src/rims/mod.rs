@@ -22,8 +22,6 @@ mod ground;
 mod height;
 mod lanes;
 mod lip;
-#[cfg(test)]
-mod lip_tests;
 mod outward;
 mod raster;
 mod rays;

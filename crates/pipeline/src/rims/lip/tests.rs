@@ -8,9 +8,9 @@ use nalgebra::{Point2, Point3};
 use simulate::render::Renderer;
 use simulate::scene::{Outline, Plate, Scene, Solid};
 
-use super::arcs::{Arc, BINS};
-use super::lip::outer_edge;
-use super::votes::Disc;
+use super::super::arcs::{Arc, BINS};
+use super::super::votes::Disc;
+use super::outer_edge;
 
 /// A plate on the table, 230 mm wide, at 55 degrees, and its picture of so many pixels across.
 fn plate(width_px: u32) -> (View, Picture, Point2<f64>) {
