@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn all_images_of_a_container_have_its_kind_and_height() {
-        let images = vec![seen(0, 200.0, -6.0, 50.0), seen(1, 201.0, 4.0, 70.0), seen(2, 199.0, -3.0, 60.0)];
+        let images = vec![seen(0, 200.0, -9.0, 50.0), seen(1, 201.0, 1.0, 70.0), seen(2, 199.0, -9.0, 60.0)];
         let by_image = named(images, &BTreeSet::new(), LEAST_MM);
         let rims: Vec<&AutoRim> = by_image.values().flatten().collect();
         assert_eq!(rims.len(), 3);
@@ -79,6 +79,17 @@ mod tests {
             assert_eq!((rim.object.as_str(), rim.found.kind), ("auto-1", Kind::Bowl));
             assert!((rim.found.height.mm - 60.0).abs() < 1e-9 && rim.found.height.sigma_mm < 10.0, "{:?}", rim.found);
         }
+    }
+
+    /// A plate of 20 mm, or a bowl of 60 mm: the height of what it is taken for has to say that.
+    #[test]
+    fn a_height_is_less_sure_where_the_kind_is() {
+        let sigma_mm = |plate_log_odds: f64| {
+            let by_image = named(vec![seen(0, 200.0, plate_log_odds, 60.0)], &BTreeSet::new(), LEAST_MM);
+            by_image["0.jpg"][0].found.height.sigma_mm
+        };
+        assert!((sigma_mm(-9.0) - 10.0).abs() < 0.2, "{}", sigma_mm(-9.0));
+        assert!(sigma_mm(-1.0) > 20.0, "{}", sigma_mm(-1.0));
     }
 
     #[test]
