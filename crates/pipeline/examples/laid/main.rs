@@ -10,6 +10,7 @@
 //! per container in view: errors, the true circle in the picture, and what was found of it.
 
 mod cases;
+mod pictures;
 mod tables;
 
 use std::error::Error;
@@ -118,7 +119,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
-    let jpeg = jpeg(frame, view, name)?;
+    let jpeg = pictures::jpeg(frame, view, name)?;
     let picture = Picture::decode(&jpeg).map_err(|e| e.to_string())?;
     let rims = find_rims(&picture, view).map_err(|e| e.to_string())?;
     let truths = frame.truths(view);
@@ -149,21 +150,6 @@ fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
         }
     });
     Ok(Report { name: name.to_owned(), cases: cases.collect(), rims: judged, glasses, is_bare: truths.is_empty() })
-}
-
-/// The picture, from the folder where it is kept, or taken.
-fn jpeg(frame: &Frame, view: &View, name: &str) -> Result<Vec<u8>, String> {
-    let taken = || frame.photograph(view).to_jpeg(name).map_err(|e| e.to_string());
-    let Ok(folder) = std::env::var("AIM_BATCH_LAID_PICTURES") else { return taken() };
-    let file = format!("{folder}/{name}.jpg");
-    match std::fs::read(&file) {
-        Ok(jpeg) => Ok(jpeg),
-        Err(_) => {
-            let jpeg = taken()?;
-            std::fs::write(&file, &jpeg).map_err(|e| e.to_string())?;
-            Ok(jpeg)
-        }
-    }
 }
 
 /// Share of the foot's circle on the table that is seen.

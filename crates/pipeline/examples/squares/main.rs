@@ -9,6 +9,8 @@
 //! is there already. With AIM_BATCH_LAID_CSV=FILE, one line per rectangle found: picture, confidence, right or not, what its
 //! confidence is worked out from (for the example `confidence`).
 
+#[path = "../laid/pictures.rs"]
+mod pictures;
 mod scenes;
 mod tables;
 
@@ -77,7 +79,7 @@ fn scenes_of(set: Set, seed: u64, tables: u64, width: u32) -> Result<Vec<(String
 }
 
 fn examine(frame: &Frame, view: &View, name: &str) -> Result<Report, String> {
-    let picture = Picture::decode(&jpeg(frame, view, name)?).map_err(|e| e.to_string())?;
+    let picture = Picture::decode(&pictures::jpeg(frame, view, name)?).map_err(|e| e.to_string())?;
     let rims = find_rims_of(&picture, view, &[RimShape::Rectangle]).map_err(|e| e.to_string())?;
     let truths: Vec<Truth> = frame.truths(view).into_iter().filter(|truth| truth.shape != Shape::Circle).collect();
     let off = |rim: &Rim, kind: Kind| {
@@ -143,19 +145,4 @@ fn errors(rim: &Rim, truth: &Truth, view: &View) -> Option<[tables::SizeError; 2
         })
     };
     Some([error(Quantity::Width, truth_mm[0])?, error(Quantity::Length, truth_mm[1])?])
-}
-
-/// The picture, from the folder where it is kept, or taken.
-fn jpeg(frame: &Frame, view: &View, name: &str) -> Result<Vec<u8>, String> {
-    let taken = || frame.photograph(view).to_jpeg(name).map_err(|e| e.to_string());
-    let Ok(folder) = std::env::var("AIM_BATCH_LAID_PICTURES") else { return taken() };
-    let file = format!("{folder}/{name}.jpg");
-    match std::fs::read(&file) {
-        Ok(jpeg) => Ok(jpeg),
-        Err(_) => {
-            let jpeg = taken()?;
-            std::fs::write(&file, &jpeg).map_err(|e| e.to_string())?;
-            Ok(jpeg)
-        }
-    }
 }
