@@ -6,7 +6,7 @@ use super::quad::{Quad, Side};
 /// A side is divided into as many bins.
 pub(super) const BINS: usize = 24;
 /// Those that say something of lines beside a side: without the quarter next to each corner.
-const MIDDLE: u32 = 0x00ff_fc00 >> 4;
+const MIDDLE: u32 = ((1 << (BINS / 2)) - 1) << (BINS / 4);
 /// Share of a bin's length that must be edges.
 const BIN_SHARE: f64 = 0.4;
 /// Edges along a side are within so many scaled pixels of it.
