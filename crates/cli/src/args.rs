@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use model::Method;
-use pipeline::rims::RimShape;
+use rims::RimShape;
 use pipeline::study::MarksSource;
 
 use crate::logging::LogFormat;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use aim_batch_pipeline::rims::find_rims;
+use rims::find_rims;
 use ingest::Picture;
 use model::{Kind, View};
 use simulate::laid::{self, Frame};

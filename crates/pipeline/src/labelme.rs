@@ -9,7 +9,7 @@ use model::{Feature, Mark, ObjectMarks, Quantity};
 use nalgebra::Point2;
 use serde::Deserialize;
 
-use crate::rims::Found;
+use rims::Found;
 pub(crate) use error::MARKS_UNREADABLE;
 pub use error::MarksError;
 pub(crate) use write::{AutoRim, Shape as OutShape, text_of, text_of_shapes};

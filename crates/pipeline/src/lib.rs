@@ -23,7 +23,6 @@ pub mod inspect;
 pub mod labelme;
 pub mod overlay;
 mod reporter;
-pub mod rims;
 mod run;
 mod session;
 mod sessions;

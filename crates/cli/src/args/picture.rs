@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use model::{Kind, Shape, Wall};
-use pipeline::rims::RimShape;
+use rims::RimShape;
 
 /// Where the camera is, for `project` and `measure`.
 #[derive(Debug, clap::Args)]

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::calibrate::CalibrationFile;
 use crate::inputs::{sha256_of_bytes, sha256_of_file};
-use crate::rims::{self, RimShape};
+use rims::{self, RimShape};
 use crate::session::{AUTO, Prepared};
 use crate::signals::ReadingSettings;
 use crate::study::{

@@ -6,7 +6,7 @@ use model::{
 };
 
 use super::measurement::Marked;
-use crate::rims::{Found, HeightSource};
+use rims::{Found, HeightSource};
 
 /// Sizes by one method: of people's marks as they are; of a rim that was found with what is known of its height.
 pub(super) fn estimates(

@@ -11,7 +11,7 @@ use super::problems::LINK_FACT;
 use super::{Session, SessionOutput, relative};
 use crate::inputs::sha256_of_bytes;
 use crate::labelme::{self, AutoRim, MarksError};
-use crate::rims::Found;
+use rims::Found;
 use crate::study::{Object, Study, marks_in};
 
 /// Marks by image (file on the card), then rater.

@@ -12,7 +12,7 @@ use super::marks::{MarkedObject, SessionMarks};
 use super::row::frame_row;
 use super::{Frame, Session};
 use crate::calibrate::{corrected_view, inputs_after, scaled_paper};
-use crate::rims::Found;
+use rims::Found;
 use crate::study::{Object, Study};
 
 /// One object as one rater marked it on one frame.

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use model::{ObjectMarks, Problem, Severity, Stage};
 
-use crate::rims::Found;
+use rims::Found;
 use crate::study::{NAMES_FILE, Named, SessionDir, Study, number_of_found};
 
 /// What is marked on one image, and what is known of it where the program found it.
@@ -87,7 +87,7 @@ mod tests {
     use model::{Kind, Shape};
 
     use super::*;
-    use crate::rims::{HeightSource, RimHeight};
+    use rims::{HeightSource, RimHeight};
 
     fn naming() -> Naming {
         let named = |line| Named { object: "dinner plate".to_owned(), line };

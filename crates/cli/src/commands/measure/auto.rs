@@ -3,7 +3,7 @@
 use anyhow::{Context, anyhow};
 use ingest::Picture;
 use model::{Container, Kind, Method, Shape, View};
-use pipeline::rims::{HeightSource, Rim, find_rims_of};
+use rims::{HeightSource, Rim, find_rims_of};
 use pipeline::study::UncertaintySpec;
 
 use super::super::{outcome, print, tell};

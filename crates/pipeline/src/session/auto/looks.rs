@@ -5,7 +5,7 @@
 
 use model::Kind;
 
-use crate::rims::{HeightSource, RimHeight};
+use rims::{HeightSource, RimHeight};
 
 /// What an image, or several, tell of a container.
 #[derive(Debug, Clone, Copy, PartialEq)]

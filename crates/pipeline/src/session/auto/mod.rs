@@ -19,7 +19,7 @@ use super::recording::bad_mcap;
 use super::{Frame, Prepared, Recording, stem_of};
 use crate::calibrate::corrected_view;
 use crate::labelme::{self, AutoRim};
-use crate::rims::{self, Found, Rim, find_rims_of};
+use rims::{self, Found, Rim, find_rims_of};
 use crate::stop::Stop;
 use crate::study::{SessionDir, Study, marks_in, number_of_found};
 use looks::Looks;

@@ -6,7 +6,7 @@ use super::Seen;
 use super::link::containers;
 use super::track::Sighting;
 use crate::labelme::AutoRim;
-use crate::rims::{Found, as_judged};
+use rims::{Found, as_judged};
 use crate::study::FOUND;
 
 /// The rims by image, named: one container, one name, what it is by all of its images. Numbers go from 1 in the order in which
@@ -43,7 +43,7 @@ mod tests {
     use model::{Kind, Shape, UtcNs};
 
     use super::*;
-    use crate::rims::{HeightSource, RimHeight};
+    use rims::{HeightSource, RimHeight};
     use crate::session::auto::looks::Looks;
 
     const LEAST_MM: f64 = 90.0;

@@ -1,7 +1,7 @@
 use model::UtcNs;
 
 use super::*;
-use crate::rims::{HeightSource, RimHeight};
+use rims::{HeightSource, RimHeight};
 use crate::session::auto::looks::Looks;
 
 const CAMERA_MM: f64 = 420.0;
