@@ -21,6 +21,7 @@ mod marks;
 mod measure;
 mod methods;
 mod names;
+mod pipeline_layers;
 mod project;
 mod published_bench;
 mod real;

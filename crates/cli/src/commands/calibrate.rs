@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use anyhow::anyhow;
 use model::SessionStatus;
-use pipeline::calibrate::{self, CalibrationFile, EmpiricalEntry, HeldOutEntry, PhysicalEntry};
+use pipeline::calibrate;
+use pipeline::calibration::{CalibrationFile, EmpiricalEntry, HeldOutEntry, PhysicalEntry};
 use pipeline::{Study, SurveyOptions};
 
 use super::{PROGRAM, outcome, print, stop_on_signals, survey_failure, tell};

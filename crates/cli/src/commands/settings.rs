@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use pipeline::Study;
-use pipeline::calibrate::CalibrationFile;
+use pipeline::calibration::CalibrationFile;
 use pipeline::study::StudySpec;
 
 use crate::args::SettingsArgs;
