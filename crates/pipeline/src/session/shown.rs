@@ -61,7 +61,7 @@ impl Shown {
         let mut shown = Self::default();
         for marked in marked {
             let Some(view) = view_of(camera, marked) else { continue };
-            shown.camera.get_or_insert_with(|| CameraSpec::of("recorded", view.camera()));
+            shown.camera.get_or_insert_with(|| CameraSpec::from_camera("recorded", view.camera()));
             let marks_camera = &marked.session.marks_camera;
             let marks = marked.marks.marks.iter().filter_map(|mark| {
                 ShownMark::of(mark, marked.found.is_some(), |point| recorded(camera, marks_camera, point))

@@ -144,7 +144,7 @@ fn fused_row(rows: &[&ResultRow], fused: &Fused, level: Level, doubts: &[Doubt])
     let first = *rows.first()?;
     let mean = |value: fn(&ResultRow) -> Option<f64>| {
         let values: Option<Vec<f64>> = rows.iter().map(|row| value(row)).collect();
-        ErrorStats::of(&values?).map(|stats| stats.mean)
+        ErrorStats::from_errors(&values?).map(|stats| stats.mean)
     };
     let images: BTreeSet<&Option<String>> = rows.iter().map(|row| &row.image).collect();
     let row = ResultRow {
