@@ -25,7 +25,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// The factor by which the measured size is wrong.
+    /// The ratio of the measured to the true size.
     fn factor(&self) -> f64 {
         self.predicted_mm / self.true_mm
     }
