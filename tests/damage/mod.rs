@@ -1,5 +1,7 @@
-//! Every defect that cards have: what can be used is used, what is lost is told with its code, and no other session notices.
+//! Every defect that the input of a study has, in cards, marks and settings: what can be used is used, what is lost is reported
+//! with its code, and no other session notices.
 
+mod bad_input;
 mod clocks;
 mod corrupt;
 mod images;

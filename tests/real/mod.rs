@@ -87,7 +87,7 @@ impl Photo {
 
 /// Bias, spread and worst case of errors in per cent, on one line.
 pub fn summary(what: &str, errors_pct: &[f64]) -> model::ErrorStats {
-    let stats = model::ErrorStats::of(errors_pct).unwrap();
+    let stats = model::ErrorStats::from_errors(errors_pct).unwrap();
     println!(
         "{what}: n {}, bias {:+.2} %, SD {:.2} %, mean |error| {:.2} %, median |error| {:.2} %, worst {:+.2} %",
         stats.n,

@@ -114,7 +114,7 @@ pub enum CameraSpecError {
 impl CameraSpec {
     /// What describes this camera, with lengths in pixels.
     #[must_use]
-    pub fn of(name: &str, camera: &Camera) -> Self {
+    pub fn from_camera(name: &str, camera: &Camera) -> Self {
         let lens = match *camera.lens() {
             LensModel::None => LensSpec::None {},
             LensModel::Radial(Radial { k1 }) => LensSpec::Radial { k_per_mm2: None, k1: Some(k1) },

@@ -1,4 +1,4 @@
-//! What is measured, and how.
+//! Containers: their kinds and outlines, which of their sizes are measured, and by which methods.
 
 use crate::codes::coded_enum;
 
@@ -46,5 +46,32 @@ coded_enum! {
         Coaxial = "coaxial": "round bowls with rim and base outlined: two circles about one vertical axis, whatever the wall",
         Joint = "joint": "two or more images of one bowl at different pitches: height and wall slope together, fused rows only",
         Best = "best": "of the others the one with the smallest uncertainty whose assumptions hold",
+    }
+}
+
+/// What is known of a container before it is measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Container {
+    /// Plate, bowl or box.
+    pub kind: Kind,
+    /// Its outline.
+    pub shape: Shape,
+    /// Height of the rim above the table where it is known (a catalogue, a ruler) and need not be measured.
+    pub rim_height_mm: Option<f64>,
+    /// How its wall stands, where it is known; a box's is vertical.
+    pub wall: Option<Wall>,
+}
+
+impl Container {
+    /// How its wall stands; none where nobody knows.
+    #[must_use]
+    pub fn known_wall(&self) -> Option<Wall> {
+        self.wall.or((self.kind == Kind::Box).then_some(Wall::Vertical))
+    }
+
+    /// Whether its mouth is measured on a plane whose height comes from the same picture.
+    #[must_use]
+    pub fn rim_plane_is_measured(&self) -> bool {
+        self.rim_height_mm.is_none() && self.kind != Kind::Plate
     }
 }

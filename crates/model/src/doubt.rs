@@ -1,9 +1,9 @@
 //! Assumptions of methods that may not hold.
 
 use crate::codes::coded_enum;
-use crate::container::{Method, Quantity, Wall};
+use crate::container::{Container, Method, Quantity, Wall};
 use crate::marks::ObjectMarks;
-use crate::measure::{Container, sizes};
+use crate::measure::sizes;
 use crate::view::View;
 
 coded_enum! {
@@ -19,7 +19,7 @@ coded_enum! {
 const SLOPED: f64 = 0.05;
 
 /// Whether the method needs to be told how the wall stands.
-pub(crate) fn tells_slope(method: Method) -> bool {
+pub(crate) fn assumes_vertical_wall(method: Method) -> bool {
     matches!(method, Method::Paper | Method::Ray)
 }
 
@@ -36,7 +36,7 @@ pub(crate) fn wall_doubt(
     slope: Option<f64>,
 ) -> Option<Doubt> {
     let needs_wall = quantity == Quantity::Height || container.rim_plane_is_measured();
-    if !tells_slope(method) || !needs_wall {
+    if !assumes_vertical_wall(method) || !needs_wall {
         return None;
     }
     match (container.known_wall(), slope) {

@@ -109,7 +109,7 @@ pub fn fuse(shares: &[Share]) -> Option<Fused> {
     Some(Fused {
         value_mm,
         sigma: combined(terms),
-        spread_mm: ErrorStats::of(&values).and_then(|stats| stats.sample_sd),
+        spread_mm: ErrorStats::from_errors(&values).and_then(|stats| stats.sample_sd),
         weights,
         outliers,
         consistency: consistency(shares),

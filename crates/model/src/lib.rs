@@ -11,8 +11,8 @@
 //! - Camera frame: x right, y down, z forward along the optical axis (OpenCV, ROS optical frames).
 //! - World frame: origin on the table vertically under the camera; X right, Y forward (horizontal), Z up.
 //! - Radians and millimetres, unless a name says otherwise. Pixels: (0, 0) is the centre of the first pixel.
-//! - Roll is positive when the camera turns clockwise about its optical axis as the wearer sees it, hence
-//!   down = (sin p cos w, cos p cos w, sin w) in the camera frame for pitch w and roll p.
+//! - Roll is positive when the camera turns clockwise about its optical axis as the wearer sees it. In the camera frame,
+//!   down = (sin(roll) cos(pitch), cos(roll) cos(pitch), sin(pitch)).
 //!
 //! # Example
 //! ```
@@ -40,6 +40,7 @@ mod flow;
 mod frame_log;
 mod fusion;
 mod gallery;
+mod joint;
 pub mod lens;
 mod located;
 mod marks;
@@ -61,18 +62,16 @@ mod view;
 pub use camera::{Camera, CameraError, resampled_px};
 pub use camera_spec::{CameraSpec, CameraSpecError, LensSpec};
 pub use circle::{Circle, CircleError, CircleFit, fit_circle};
-pub use container::{Kind, Method, Quantity, Shape, Wall};
+pub use container::{Container, Kind, Method, Quantity, Shape, Wall};
 pub use doubt::Doubt;
 pub use flow::{Flow, FlowStep, ImageCounts, StudyFlow};
 pub use frame_log::{FrameFlag, FrameReason};
 pub use fusion::{Consistency, Fused, Share, Verdict, fuse};
 pub use gallery::{GalleryMark, GalleryPicture, GallerySink, PictureView};
+pub use joint::{JointError, JointHeight, Sight, joint_height, sights};
 pub use lens::{LensError, LensModel};
 pub use marks::{Feature, Mark, ObjectMarks};
-pub use measure::{
-    Container, JointError, JointHeight, MeasureError, Measured, Sight, height_by_paper_mm, height_by_ray_mm,
-    joint_height, measure, sights,
-};
+pub use measure::{MeasureError, Measured, height_by_paper_mm, height_by_ray_mm, measure};
 pub use pose::{Pose, PoseError};
 pub use results::{FrameRow, Level, ResultRow};
 pub use sink::{ResultSink, RunLog, RunMetadata, SessionLog, StageLog};

@@ -26,7 +26,7 @@ impl Located {
     ///
     /// With r the ray in the world frame, q = -r.z and h the camera's height above the plane, P = r.xy h / q. A small turn
     /// of the camera turns r, and a change of pitch or range changes h as well; derivatives of rotations are cross products.
-    pub(crate) fn of(view: &View, pixel: Point2<f64>, plane_z_mm: f64) -> Result<Self, ViewError> {
+    pub(crate) fn on_plane(view: &View, pixel: Point2<f64>, plane_z_mm: f64) -> Result<Self, ViewError> {
         let point_mm = view.on_plane(pixel, plane_z_mm)?;
         let (ray_in_camera, ray_by_pixel) = view.camera().ray_and_derivative(pixel)?;
         let pose = view.pose();
@@ -38,19 +38,20 @@ impl Located {
         let by_height = ray.xy() / q;
         let columns = world_from_camera * ray_by_pixel;
         let by_pixel = Matrix2::from_columns(&[by_ray(columns.column(0).into()), by_ray(columns.column(1).into())]);
-        let (sin_w, cos_w) = pose.pitch_rad().sin_cos();
-        let (sin_p, cos_p) = pose.roll_rad().sin_cos();
+        let (sin_pitch, cos_pitch) = pose.pitch_rad().sin_cos();
+        let (sin_roll, cos_roll) = pose.roll_rad().sin_cos();
         // Pitching down turns forward to down: (x, y, -q) by (0, -q, -y).
-        let by_pitch = by_ray(Vector3::new(0.0, -q, -ray.y)) + by_height * (pose.range_mm() * cos_w);
+        let by_pitch = by_ray(Vector3::new(0.0, -q, -ray.y)) + by_height * (pose.range_mm() * cos_pitch);
         // Tilting to the right turns left to down: (x, y, -q) by (-q, 0, -x).
         let by_tilt = by_ray(Vector3::new(-q, 0.0, -ray.x));
-        let by_range = by_height * sin_w;
+        let by_range = by_height * sin_pitch;
         let mut by_source = BySource::zeros();
         let mut set = |source: Source, column: Vector2<f64>| by_source.set_column(source.index(), &column);
         set(Source::Pitch, by_pitch);
         set(Source::Tilt, by_tilt);
-        // About the camera's x axis: dw = cos p dm, and cos w dp = sin p sin w dm.
-        set(Source::Mount, by_pitch * cos_p + by_tilt * (sin_p * sin_w));
+        // The mount turns the camera about its x axis: d pitch = cos(roll) d mount and d tilt = cos(pitch) d roll
+        // = sin(roll) sin(pitch) d mount.
+        set(Source::Mount, by_pitch * cos_roll + by_tilt * (sin_roll * sin_pitch));
         set(Source::RangeScale, by_range * pose.range_mm());
         set(Source::RangeOffset, by_range);
         set(Source::Focal, by_pixel * view.camera().pixel_by_focal_share(pixel));

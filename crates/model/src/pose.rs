@@ -99,7 +99,7 @@ impl Pose {
         Self { roll_rad: 0.0, ..self }
     }
 
-    /// Height of the camera above the table: c = d sin w.
+    /// Height of the camera above the table: c = range sin(pitch).
     #[must_use]
     pub fn camera_height_mm(&self) -> f64 {
         self.range_mm * self.pitch_rad.sin()
@@ -108,27 +108,27 @@ impl Pose {
     /// Unit vector 'down' in the camera frame.
     #[must_use]
     pub fn down_in_camera(&self) -> Vector3<f64> {
-        let (sin_w, cos_w) = self.pitch_rad.sin_cos();
-        let (sin_p, cos_p) = self.roll_rad.sin_cos();
-        Vector3::new(sin_p * cos_w, cos_p * cos_w, sin_w)
+        let (sin_pitch, cos_pitch) = self.pitch_rad.sin_cos();
+        let (sin_roll, cos_roll) = self.roll_rad.sin_cos();
+        Vector3::new(sin_roll * cos_pitch, cos_roll * cos_pitch, sin_pitch)
     }
 
     /// Rotation that takes a direction in the camera frame to the world frame. Its rows are the world axes right,
-    /// forward and up in the camera frame; looking straight down (w = 90 degrees), forward is the top of the picture.
+    /// forward and up in the camera frame; looking straight down (pitch = 90 degrees), forward is the top of the picture.
     #[must_use]
     pub fn world_from_camera(&self) -> Matrix3<f64> {
-        let (sin_w, cos_w) = self.pitch_rad.sin_cos();
-        let (sin_p, cos_p) = self.roll_rad.sin_cos();
+        let (sin_pitch, cos_pitch) = self.pitch_rad.sin_cos();
+        let (sin_roll, cos_roll) = self.roll_rad.sin_cos();
         Matrix3::new(
-            cos_p,
-            -sin_p,
+            cos_roll,
+            -sin_roll,
             0.0, // right
-            -sin_p * sin_w,
-            -cos_p * sin_w,
-            cos_w, // forward
-            -sin_p * cos_w,
-            -cos_p * cos_w,
-            -sin_w, // up
+            -sin_roll * sin_pitch,
+            -cos_roll * sin_pitch,
+            cos_pitch, // forward
+            -sin_roll * cos_pitch,
+            -cos_roll * cos_pitch,
+            -sin_pitch, // up
         )
     }
 }

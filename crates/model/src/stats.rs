@@ -27,7 +27,7 @@ impl ErrorStats {
     /// Statistics of `errors`, or none when there are none. Numbers that are not finite are the caller's to remove.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a count of errors is far below 2^53")]
-    pub fn of(errors: &[f64]) -> Option<Self> {
+    pub fn from_errors(errors: &[f64]) -> Option<Self> {
         let worst = errors.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
         let n = errors.len() as f64;
         let mean = errors.iter().sum::<f64>() / n;
@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn small_sample_by_hand() {
-        let stats = ErrorStats::of(&[-2.0, 1.0, 4.0]).expect("not empty");
+        let stats = ErrorStats::from_errors(&[-2.0, 1.0, 4.0]).expect("not empty");
         assert_eq!(stats.n, 3);
         assert!((stats.mean - 1.0).abs() < 1e-15);
         assert!((stats.sample_sd.expect("n > 1") - 3.0).abs() < 1e-15);
@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn one_error_has_no_sample_sd_and_none_has_nothing() {
-        assert_eq!(ErrorStats::of(&[3.0]).expect("not empty").sample_sd, None);
-        assert_eq!(ErrorStats::of(&[]), None);
+        assert_eq!(ErrorStats::from_errors(&[3.0]).expect("not empty").sample_sd, None);
+        assert_eq!(ErrorStats::from_errors(&[]), None);
     }
 }

@@ -2,10 +2,10 @@
 
 use nalgebra::{Matrix4, Vector3};
 
-use crate::container::{Method, Quantity};
-use crate::doubt::{Doubt, tells_slope, wall_doubt, wall_slope};
+use crate::container::{Container, Method, Quantity};
+use crate::doubt::{Doubt, assumes_vertical_wall, wall_doubt, wall_slope};
 use crate::marks::ObjectMarks;
-use crate::measure::{Container, MeasureError, Measured, Sized, sizes, view_of_method};
+use crate::measure::{MeasureError, Measured, Sized, sizes, view_of_method};
 use crate::source::{PerSource, Source, SourceCovariance};
 use crate::view::View;
 
@@ -82,7 +82,7 @@ impl InputSigma {
 
     /// Standard uncertainty of one source, without what a calibration says.
     #[must_use]
-    pub fn of(&self, source: Source) -> f64 {
+    pub fn sigma_of(&self, source: Source) -> f64 {
         match source {
             Source::Pitch => self.pitch_rad,
             Source::Tilt => self.tilt_rad,
@@ -100,7 +100,7 @@ impl InputSigma {
     pub fn common(&self) -> SourceCovariance {
         let mut covariance = SourceCovariance::zeros();
         for source in Source::ALL {
-            covariance[(source.index(), source.index())] = self.of(*source).powi(2);
+            covariance[(source.index(), source.index())] = self.sigma_of(*source).powi(2);
         }
         if let Some(learned) = &self.learned {
             for (i, a) in LEARNED.iter().enumerate() {
@@ -237,7 +237,7 @@ pub fn estimate(
 ) -> Vec<(Quantity, Result<Estimate, MeasureError>)> {
     let found = sizes(&view_of_method(view, method), method, container, marks);
     let exact = if method == Method::Paper { sizes(view, Method::Ray, container, marks) } else { Vec::new() };
-    let slope = tells_slope(method).then(|| wall_slope(view, container, marks)).flatten();
+    let slope = assumes_vertical_wall(method).then(|| wall_slope(view, container, marks)).flatten();
     let estimated = |size: Sized| {
         let sensitivity = Sensitivity { by_source: size.number.by_source, marks_mm_per_px: size.number.by_mark.norm() };
         let sigma = sensitivity.sigma(inputs);

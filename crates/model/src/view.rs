@@ -9,7 +9,7 @@ use crate::pose::Pose;
 /// One picture's geometry: the exact form of the paper's chain (9)-(13), with roll and any lens.
 ///
 /// In the paper's own frame the origin is where the perpendicular to the optical axis through the camera meets the table,
-/// at h = d tan w (Eq. 10); here it is the point under the camera. Distances on the plane are the same.
+/// at h = range tan(pitch) (Eq. 10); here it is the point under the camera. Distances on the plane are the same.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
     camera: Camera,

@@ -42,7 +42,7 @@ fn every_lens_model_is_read() {
     for (text, expected) in cases {
         let camera = camera(PIXELS, text).unwrap();
         assert_eq!(*camera.lens(), expected, "{text}");
-        let written = toml::to_string(&CameraSpec::of("unit 7", &camera)).unwrap();
+        let written = toml::to_string(&CameraSpec::from_camera("unit 7", &camera)).unwrap();
         assert_eq!(parse(&written).camera().unwrap(), camera, "{written}");
     }
 }

@@ -218,7 +218,7 @@ fn noisy_marks_give_the_diameter_without_bias() {
             got[0].1.unwrap().predicted_mm - 150.0
         })
         .collect();
-    let stats = aim_batch_model::ErrorStats::of(&errors_mm).unwrap();
+    let stats = aim_batch_model::ErrorStats::from_errors(&errors_mm).unwrap();
     assert!(stats.mean.abs() < 0.08, "bias {} mm", stats.mean); // 3 standard errors of the mean of 200
     assert!((0.25..0.45).contains(&stats.population_sd), "scatter {} mm", stats.population_sd);
     assert!(stats.worst.abs() < 1.5, "worst {} mm", stats.worst);

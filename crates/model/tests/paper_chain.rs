@@ -1,8 +1,8 @@
 //! The paper's equations (8)-(15), written out as printed, as an oracle for the exact form in `View`.
 //!
-//! Readings that the chain needs to be consistent: theta = 90 - w (the only one in which the axis point lies at depth d),
+//! Readings that the chain needs to be consistent: theta = 90 degrees - pitch (the only one in which the axis point lies at depth d),
 //! also in Eq. (8); v points up; the '+' of Eq. (9) is a product. The paper's origin then lies where the perpendicular to
-//! the optical axis through the camera meets the table, h sin w nearer the wearer than the point under the camera.
+//! the optical axis through the camera meets the table, h sin(pitch) nearer the wearer than the point under the camera.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;

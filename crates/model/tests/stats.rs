@@ -63,7 +63,7 @@ fn assert_mean_sd(got: (f64, f64), expected: (f64, f64), tolerance: f64, place: 
 }
 
 fn mean_and_sample_sd(errors: &[f64]) -> (f64, f64) {
-    let stats = ErrorStats::of(errors).unwrap();
+    let stats = ErrorStats::from_errors(errors).unwrap();
     (stats.mean, stats.sample_sd.unwrap())
 }
 
@@ -91,7 +91,7 @@ fn objects_of_setup_tables_have_the_printed_statistics() {
 #[test]
 fn tables_of_raters_have_population_sd() {
     let overall = |table: &[Raters]| {
-        let stats = ErrorStats::of(&rater_errors(table)).unwrap();
+        let stats = ErrorStats::from_errors(&rater_errors(table)).unwrap();
         (stats.mean, stats.population_sd)
     };
     assert_mean_sd(overall(&TABLE_V), (-1.34, 9.20), 0.006, "V"); // printed: -7.89 +- 4.71, two signs wrong
@@ -105,7 +105,7 @@ fn plates_by_pitch_and_by_height() {
     let errors = setup_errors(&TABLE_II);
     let mean_absolute = |setups: [usize; 3]| {
         let chosen: Vec<f64> = errors.iter().flat_map(|object| setups.map(|i| object[i])).collect();
-        format!("{:.2}", ErrorStats::of(&chosen).unwrap().mean_absolute)
+        format!("{:.2}", ErrorStats::from_errors(&chosen).unwrap().mean_absolute)
     };
     // Setups in the order of the rows: 20, 35, 50 cm, each near 40, 55, 70 degrees.
     assert_eq!(mean_absolute([0, 3, 6]), "3.88");

@@ -110,7 +110,7 @@ impl Scene {
                 sizes.into_iter().find(|(q, _)| *q == quantity).unwrap().1.unwrap().predicted_mm
             })
             .collect();
-        ErrorStats::of(&sizes).unwrap().sample_sd.unwrap()
+        ErrorStats::from_errors(&sizes).unwrap().sample_sd.unwrap()
     }
 
     #[track_caller]

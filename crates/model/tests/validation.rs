@@ -54,7 +54,7 @@ fn the_standard_error_of_measurement_is_raters_and_residual() {
 #[test]
 fn errors_in_one_line_as_numpy_says() {
     let errors = &reference()["errors"];
-    let found = ErrorSummary::of(&numbers(&errors["values"])).unwrap();
+    let found = ErrorSummary::from_errors(&numbers(&errors["values"])).unwrap();
     for (got, name) in [
         (found.bias, "mean"),
         (found.sd.unwrap(), "sd"),
@@ -69,7 +69,7 @@ fn errors_in_one_line_as_numpy_says() {
     let limits = found.limits.unwrap();
     assert_near(limits[0], &errors["loa"][0]);
     assert_near(limits[1], &errors["loa"][1]);
-    assert!(ErrorSummary::of(&[]).is_none() && ErrorSummary::of(&[1.0]).unwrap().limits.is_none());
+    assert!(ErrorSummary::from_errors(&[]).is_none() && ErrorSummary::from_errors(&[1.0]).unwrap().limits.is_none());
 }
 
 #[test]
@@ -99,7 +99,7 @@ fn whole_clusters_are_drawn() {
                 (0..10).map(|_| common + draw(1.0)).collect()
             })
             .collect();
-        let mean = |sample: &[f64]| ErrorSummary::of(sample).map(|s| s.bias);
+        let mean = |sample: &[f64]| ErrorSummary::from_errors(sample).map(|s| s.bias);
         let interval = bootstrap(&clusters, mean, 400, run).unwrap();
         covered += u32::from(interval.low < 0.0 && interval.high > 0.0);
         if run == 0 {

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use model::SessionStatus;
-use pipeline::calibrate::{self, CalibrationFile, EmpiricalEntry, HeldOutEntry, PhysicalEntry};
+use pipeline::calibrate;
+use pipeline::calibration::{CalibrationFile, EmpiricalEntry, HeldOutEntry, PhysicalEntry};
 use pipeline::{Study, SurveyOptions};
 
 use super::{PROGRAM, outcome, print, print_message, stop_on_signals, survey_failure};

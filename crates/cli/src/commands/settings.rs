@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use model::Method;
 use pipeline::Study;
-use pipeline::calibrate::CalibrationFile;
+use pipeline::calibration::CalibrationFile;
 use pipeline::rims::RimShape;
 use pipeline::study::{MarksSource, StudySpec};
 

@@ -1,7 +1,8 @@
 //! Where only table rows exist: the factor that sizes are off by, as a line in tan(pitch).
 //!
-//! For heights the line has a meaning: the paper's height of a wall that overhangs its foot by s is H' tan w = H (cot e tan w)
-//! + s tan w, with e the depression of the rim's ray, near w. So a is about 1 and b the wall's slope.
+//! For heights the line has a meaning: the paper's height of a wall that is H high and overhangs its foot by s is
+//! H' tan(pitch) = H cot(e) tan(pitch) + s tan(pitch), where e is the depression of the ray to the rim, which is close to the
+//! pitch. So a is about 1, and b is the wall's slope s / H.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -47,7 +48,7 @@ pub struct Scale {
 impl Scale {
     /// The factor at a pitch; none where the line has no positive one.
     #[must_use]
-    pub fn at(&self, pitch_rad: f64) -> Option<f64> {
+    pub fn factor_at(&self, pitch_rad: f64) -> Option<f64> {
         Some(self.a + self.b * pitch_rad.tan()).filter(|factor| factor.is_finite() && *factor > SMALLEST_FACTOR)
     }
 }
@@ -155,7 +156,7 @@ pub fn calibrate(rows: &[Row]) -> Result<Empirical, ScaleError> {
     let before: Vec<f64> = rows.iter().map(|row| 100.0 * (row.factor() - 1.0)).collect();
     let errors = |kept: &[usize], judged: &[usize]| {
         let scale = fit(&kept.iter().map(|&i| &rows[i]).collect::<Vec<_>>()).ok()?;
-        judged.iter().map(|&i| Some(100.0 * (rows[i].factor() / scale.at(rows[i].pitch_rad)? - 1.0))).collect()
+        judged.iter().map(|&i| Some(100.0 * (rows[i].factor() / scale.factor_at(rows[i].pitch_rad)? - 1.0))).collect()
     };
     let without_object = leave_one_out(&before, |i| rows[i].object.as_str(), errors).ok_or(ScaleError::TooFew(0))?;
     let without_setup = leave_one_out(&before, |i| rows[i].setup.as_str(), errors).ok_or(ScaleError::TooFew(0))?;

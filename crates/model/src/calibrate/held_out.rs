@@ -25,7 +25,7 @@ pub(super) fn leave_one_out<F: Ord>(
     errors_pct: impl Fn(&[usize], &[usize]) -> Option<Vec<f64>>,
 ) -> Option<HeldOut> {
     let folds: BTreeSet<F> = (0..before_pct.len()).map(&fold_of).collect();
-    let rms = |errors: &[f64]| ErrorStats::of(errors).map(|stats| stats.rms);
+    let rms = |errors: &[f64]| ErrorStats::from_errors(errors).map(|stats| stats.rms);
     let mut after = Some(Vec::new());
     for fold in &folds {
         let (judged, kept): (Vec<usize>, Vec<usize>) = (0..before_pct.len()).partition(|i| fold_of(*i) == *fold);

@@ -20,7 +20,7 @@ pub struct Protractor {
 /// Line through pairs (reference, measured), in any unit. None for fewer than three, or where the references are all alike.
 #[must_use]
 pub fn protractor(pairs: &[(f64, f64)]) -> Option<Protractor> {
-    let stats = |values: Vec<f64>| ErrorStats::of(&values);
+    let stats = |values: Vec<f64>| ErrorStats::from_errors(&values);
     let (x, y) = (stats(pairs.iter().map(|p| p.0).collect())?, stats(pairs.iter().map(|p| p.1).collect())?);
     let difference = stats(pairs.iter().map(|(reference, measured)| measured - reference).collect())?;
     let sum = |of: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>();

@@ -8,7 +8,7 @@ use crate::sensed::Sensed;
 use crate::source::{PerSource, Source};
 use crate::view::View;
 
-/// Wall height by the paper: Eq. (14), H = tan(w) H', where H' is the length along Y, on Z = 0, from the wall's foot to
+/// Wall height by the paper: Eq. (14), H = tan(pitch) H', where H' is the length along Y, on Z = 0, from the wall's foot to
 /// the rim above it. This uses the depression of the optical axis for every ray.
 ///
 /// # Errors
@@ -30,7 +30,7 @@ pub fn height_by_ray_mm(view: &View, foot_px: Point2<f64>, rim_px: Point2<f64>) 
 }
 
 /// A height above the table and below the camera.
-pub(super) fn possible_height(view: &View, height_mm: f64) -> Result<f64, MeasureError> {
+pub(crate) fn possible_height(view: &View, height_mm: f64) -> Result<f64, MeasureError> {
     let camera_height_mm = view.pose().camera_height_mm();
     if height_mm >= camera_height_mm {
         Err(MeasureError::RimAboveCamera { height_mm, camera_height_mm })
@@ -42,7 +42,7 @@ pub(super) fn possible_height(view: &View, height_mm: f64) -> Result<f64, Measur
 }
 
 /// A height line's ends, each with the number of its mark.
-pub(super) struct HeightLine {
+pub(crate) struct HeightLine {
     pub foot: (usize, Point2<f64>),
     pub rim: (usize, Point2<f64>),
 }
@@ -51,12 +51,12 @@ impl HeightLine {
     /// [`height_by_paper_mm`] with its derivatives.
     pub(super) fn by_paper(&self, view: &View, points: usize) -> Result<Sensed, MeasureError> {
         let height_mm = height_by_paper_mm(view, self.foot.1, self.rim.1)?;
-        let (foot, rim) = (Located::of(view, self.foot.1, 0.0)?, Located::of(view, self.rim.1, 0.0)?);
-        let (tan_w, along) = (view.pose().pitch_rad().tan(), Vector2::y());
-        let ends = [(self.foot.0, &foot, along * -tan_w), (self.rim.0, &rim, along * tan_w)];
+        let (foot, rim) = (Located::on_plane(view, self.foot.1, 0.0)?, Located::on_plane(view, self.rim.1, 0.0)?);
+        let (tan_pitch, along) = (view.pose().pitch_rad().tan(), Vector2::y());
+        let ends = [(self.foot.0, &foot, along * -tan_pitch), (self.rim.0, &rim, along * tan_pitch)];
         let mut height = Sensed::of_places(height_mm, ends, &Sensed::exact(0.0, points));
-        // d tan w = (1 + tan^2 w) dw, and dw = cos p dm for the mount.
-        let by_pitch = (1.0 + tan_w * tan_w) * (rim.point_mm.y - foot.point_mm.y);
+        // d tan(pitch) = (1 + tan^2(pitch)) d pitch, and d pitch = cos(roll) d mount.
+        let by_pitch = (1.0 + tan_pitch * tan_pitch) * (rim.point_mm.y - foot.point_mm.y);
         height.by_source[Source::Pitch.index()] += by_pitch;
         height.by_source[Source::Mount.index()] += by_pitch * view.pose().roll_rad().cos();
         Ok(height)
@@ -69,9 +69,9 @@ impl HeightLine {
     }
 
     /// Distances of foot and rim on Z = 0 from the point under the camera.
-    pub(super) fn distances(&self, view: &View, points: usize) -> Result<[Sensed; 2], MeasureError> {
+    pub(crate) fn distances(&self, view: &View, points: usize) -> Result<[Sensed; 2], MeasureError> {
         let distance = |(mark, pixel): (usize, Point2<f64>)| {
-            let place = Located::of(view, pixel, 0.0)?;
+            let place = Located::on_plane(view, pixel, 0.0)?;
             let length_mm = place.point_mm.coords.norm();
             let along = place.point_mm.coords.try_normalize(0.0).unwrap_or_else(Vector2::zeros);
             Ok::<_, MeasureError>(Sensed::of_places(length_mm, [(mark, &place, along)], &Sensed::exact(0.0, points)))
@@ -89,8 +89,8 @@ pub(super) fn by_distances(view: &View, foot: &Sensed, rim: &Sensed) -> Result<S
     Ok(Sensed::of_numbers(height_mm, terms, foot.points()))
 }
 
-/// Height of the camera above the table, c = d sin w, with its derivatives.
-pub(super) fn camera_height(view: &View, points: usize) -> Sensed {
+/// Height of the camera above the table, c = range sin(pitch), with its derivatives.
+pub(crate) fn camera_height(view: &View, points: usize) -> Sensed {
     let pose = view.pose();
     let by_pitch = pose.range_mm() * pose.pitch_rad().cos();
     let mut by_source = PerSource::zeros();

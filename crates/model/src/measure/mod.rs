@@ -2,49 +2,21 @@
 
 mod error;
 mod height;
-mod joint;
 mod numbered;
 mod round;
 mod span;
 
-use crate::container::{Kind, Method, Quantity, Shape, Wall};
+use crate::container::{Container, Kind, Method, Quantity, Shape};
 use crate::marks::ObjectMarks;
 use crate::sensed::Sensed;
 use crate::view::View;
 
 pub use error::MeasureError;
+pub(crate) use height::{HeightLine, camera_height, possible_height};
 pub use height::{height_by_paper_mm, height_by_ray_mm};
-pub use joint::{JointError, JointHeight, Sight, joint_height, sights};
-use numbered::Numbered;
+pub(crate) use numbered::Numbered;
 use round::coaxial;
 use span::Span;
-
-/// What is known of a container before it is measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Container {
-    /// Plate, bowl or box.
-    pub kind: Kind,
-    /// Its outline.
-    pub shape: Shape,
-    /// Height of the rim above the table where it is known (a catalogue, a ruler) and need not be measured.
-    pub rim_height_mm: Option<f64>,
-    /// How its wall stands, where it is known; a box's is vertical.
-    pub wall: Option<Wall>,
-}
-
-impl Container {
-    /// How its wall stands; none where nobody knows.
-    #[must_use]
-    pub fn known_wall(&self) -> Option<Wall> {
-        self.wall.or((self.kind == Kind::Box).then_some(Wall::Vertical))
-    }
-
-    /// Whether its mouth is measured on a plane whose height comes from the same picture.
-    #[must_use]
-    pub fn rim_plane_is_measured(&self) -> bool {
-        self.rim_height_mm.is_none() && self.kind != Kind::Plate
-    }
-}
 
 /// One size.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +72,7 @@ pub(crate) fn view_of_method(view: &View, method: Method) -> View {
 
 /// [`measure`] with derivatives, and with the view taken as it is, roll included.
 pub(crate) fn sizes(view: &View, method: Method, container: &Container, marks: &ObjectMarks) -> Sizes {
-    let numbered = Numbered::of(marks);
+    let numbered = Numbered::from_marks(marks);
     let height = match method {
         Method::Paper | Method::Ray => height_of_lines(view, method, &numbered),
         Method::Coaxial => match coaxial_height(view, container, &numbered) {

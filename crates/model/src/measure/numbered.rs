@@ -7,14 +7,14 @@ use crate::container::Quantity;
 use crate::marks::{Feature, Mark, ObjectMarks};
 
 /// Marks with the number of their first point: derivatives by marks are kept in the order of those numbers.
-pub(super) struct Numbered<'a> {
+pub(crate) struct Numbered<'a> {
     marks: Vec<(usize, &'a Mark)>,
     /// How many points there are.
     pub points: usize,
 }
 
 impl<'a> Numbered<'a> {
-    pub(super) fn of(marks: &'a ObjectMarks) -> Self {
+    pub(crate) fn from_marks(marks: &'a ObjectMarks) -> Self {
         let mut points = 0;
         let number = |mark: &'a Mark| {
             let first = points;
@@ -32,7 +32,7 @@ impl<'a> Numbered<'a> {
         })
     }
 
-    pub(super) fn height_lines(&self) -> impl Iterator<Item = HeightLine> + '_ {
+    pub(crate) fn height_lines(&self) -> impl Iterator<Item = HeightLine> + '_ {
         self.lines(Quantity::Height).map(|(n, [foot, rim])| HeightLine { foot: (n, foot), rim: (n + 1, rim) })
     }
 

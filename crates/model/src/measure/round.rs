@@ -25,8 +25,10 @@ impl Round {
         points_px: &[(usize, Point2<f64>)],
         plane_z: &Sensed,
     ) -> Result<Self, MeasureError> {
-        let located: Vec<Located> =
-            points_px.iter().map(|(_, pixel)| Located::of(view, *pixel, plane_z.value)).collect::<Result<_, _>>()?;
+        let located: Vec<Located> = points_px
+            .iter()
+            .map(|(_, pixel)| Located::on_plane(view, *pixel, plane_z.value))
+            .collect::<Result<_, _>>()?;
         let places: Vec<_> = located.iter().map(|l| l.point_mm).collect();
         let fit = fit_circle(&places, |i, direction| located[i].by_pixel.tr_mul(&direction).norm())
             .map_err(|source| MeasureError::Circle { feature, source })?;

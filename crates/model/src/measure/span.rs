@@ -41,7 +41,7 @@ impl<'a> Span<'a> {
 
     /// Its size on the plane `plane_z`, with its derivatives.
     pub(super) fn size(&self, view: &View, quantity: Quantity, plane_z: &Sensed) -> Result<Sensed, MeasureError> {
-        let place = |pixel: Point2<f64>| Located::of(view, pixel, plane_z.value);
+        let place = |pixel: Point2<f64>| Located::on_plane(view, pixel, plane_z.value);
         match self {
             Span::Line(first, [a, b]) => {
                 let (a, b) = (place(*a)?, place(*b)?);

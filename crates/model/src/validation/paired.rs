@@ -23,8 +23,8 @@ pub fn paired(clusters: &[Vec<(f64, f64)>], draws: usize, seed: u64) -> Option<P
     let differences: Vec<Vec<f64>> =
         clusters.iter().map(|pairs| pairs.iter().map(|(a, b)| a.abs() - b.abs()).collect()).collect();
     let all: Vec<f64> = differences.iter().flatten().copied().collect();
-    let stats = ErrorStats::of(&all)?;
-    let mean = |sample: &[f64]| ErrorStats::of(sample).map(|stats| stats.mean);
+    let stats = ErrorStats::from_errors(&all)?;
+    let mean = |sample: &[f64]| ErrorStats::from_errors(sample).map(|stats| stats.mean);
     Some(Paired {
         n: stats.n,
         mean_difference: stats.mean,

@@ -31,8 +31,8 @@ const K_95: f64 = 1.959_963_984_540_054;
 impl ErrorSummary {
     /// None of no errors.
     #[must_use]
-    pub fn of(errors: &[f64]) -> Option<Self> {
-        let stats = ErrorStats::of(errors)?;
+    pub fn from_errors(errors: &[f64]) -> Option<Self> {
+        let stats = ErrorStats::from_errors(errors)?;
         let absolute: Vec<f64> = errors.iter().map(|e| e.abs()).collect();
         Some(Self {
             n: stats.n,

@@ -7,8 +7,8 @@ use model::{Camera, CameraSpec, Feature, Mark, Method, Pose, Quantity, View};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
-use super::measurement::Marked;
-use crate::calibrate::corrected_view;
+use super::marked::Marked;
+use crate::calibration::corrected_view;
 
 /// The pictures of a session in which something was measured.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -61,7 +61,7 @@ impl Shown {
         let mut shown = Self::default();
         for marked in marked {
             let Some(view) = view_of(camera, marked) else { continue };
-            shown.camera.get_or_insert_with(|| CameraSpec::of("recorded", view.camera()));
+            shown.camera.get_or_insert_with(|| CameraSpec::from_camera("recorded", view.camera()));
             let marks_camera = &marked.session.marks_camera;
             let marks = marked.marks.marks.iter().filter_map(|mark| {
                 ShownMark::of(mark, marked.found.is_some(), |point| recorded(camera, marks_camera, point))

@@ -71,7 +71,7 @@ fn domain(sorted: &Sorted<'_>, dimension: Dimension) -> [f64; 2] {
 }
 
 fn summary(rows: &[Erring<'_>]) -> Option<ErrorSummary> {
-    ErrorSummary::of(&rows.iter().map(|erring| erring.error_mm).collect::<Vec<_>>())
+    ErrorSummary::from_errors(&rows.iter().map(|erring| erring.error_mm).collect::<Vec<_>>())
 }
 
 fn mark<'a>(panel: &Panel, erring: Erring<'a>) -> Mark<Erring<'a>> {

@@ -123,7 +123,7 @@ fn draw_bands(drawing: &mut Drawing, panel: &Panel, rows: &[Erring<'_>], against
     }
     let (mut means, mut spreads) = (String::new(), String::new());
     for (band, errors) in bands.values() {
-        let Some(stats) = ErrorStats::of(errors) else { continue };
+        let Some(stats) = ErrorStats::from_errors(errors) else { continue };
         // A nominal value is one value; its mean needs some width to be seen.
         let [from, to] = *band;
         let ends = if to > from { [from, to] } else { [from - 2.0, from + 2.0] };
@@ -175,7 +175,7 @@ fn alt(against: &Against, sorted: &Sorted<'_>) -> String {
     let method = if sorted.methods.contains(&Method::Best) { Method::Best } else { sorted.methods[0] };
     let bias = |dimension: &Dimension| {
         let errors: Vec<f64> = sorted.cell(*dimension, method).iter().map(Erring::error_pct).collect();
-        ErrorStats::of(&errors).map(|stats| format!("{} {} %", dimension.name(), signed(stats.mean, 1)))
+        ErrorStats::from_errors(&errors).map(|stats| format!("{} {} %", dimension.name(), signed(stats.mean, 1)))
     };
     let biases: Vec<String> = sorted.dimensions.iter().filter_map(bias).collect();
     format!(

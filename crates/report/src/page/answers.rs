@@ -102,7 +102,7 @@ pub(super) fn median_absolute(errors: &[f64]) -> f64 {
 }
 
 fn error_cells(errors: &[f64]) -> [Cell; 4] {
-    let summary = ErrorSummary::of(errors);
+    let summary = ErrorSummary::from_errors(errors);
     let summary = summary.as_ref();
     [
         Cell::Count(errors.len()),

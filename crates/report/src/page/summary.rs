@@ -110,7 +110,7 @@ impl Answers<'_> {
 
     fn error_sentence(&self) -> Option<String> {
         let errors = self.errors_pct();
-        let all = ErrorSummary::of(&errors)?;
+        let all = ErrorSummary::from_errors(&errors)?;
         let known = if errors.len() == self.rows.len() { "all of them".to_owned() } else { errors.len().to_string() };
         Some(format!(
             "Of {known} the true size is known: mean error {}, median of the absolute errors {:.1} %.",
@@ -145,7 +145,7 @@ impl Answers<'_> {
             value: format!("{sigma:.1} %"),
             note: "median sigma of these".to_owned(),
         });
-        let error = ErrorSummary::of(&self.errors_pct()).map(|summary| Card {
+        let error = ErrorSummary::from_errors(&self.errors_pct()).map(|summary| Card {
             label: "Error",
             value: format!("{:.1} %", median_absolute(&self.errors_pct())),
             note: format!("median of {} absolute errors", summary.n),

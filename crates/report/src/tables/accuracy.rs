@@ -104,7 +104,7 @@ fn columns() -> Vec<Column> {
 
 fn table_row(key: &Key, errors: &[(&ResultRow, f64)], by_participant: bool) -> Option<TableRow> {
     let values: Vec<f64> = errors.iter().map(|(_, error)| *error).collect();
-    let summary = ErrorSummary::of(&values)?;
+    let summary = ErrorSummary::from_errors(&values)?;
     let clusters = clusters(errors, by_participant);
     let interval = |statistic: fn(&[f64]) -> f64| bootstrap(&clusters, |sample| Some(statistic(sample)), DRAWS, SEED);
     let (of_bias, of_rmse) = (interval(bias), interval(rmse));

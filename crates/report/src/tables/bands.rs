@@ -182,7 +182,7 @@ fn errors(results: &Results, band_of: impl Fn(&ResultRow) -> Option<Band>) -> BT
 }
 
 fn band_row((kind, _, quantity, method, band): &Key, errors: &[f64]) -> Option<TableRow> {
-    let stats = ErrorStats::of(errors)?;
+    let stats = ErrorStats::from_errors(errors)?;
     let mut cells =
         vec![Cell::text(kind.code()), Cell::text(quantity.map_or("across", Quantity::code)), Cell::text(method.code())];
     cells.extend(band.basis.map(Cell::text));

@@ -35,12 +35,16 @@ pub(super) struct Summary {
 impl Summary {
     /// Mean and sample SD (n - 1).
     pub(super) fn sample(errors: &[f64]) -> Self {
-        ErrorStats::of(errors).map_or_else(Self::default, |s| Self { n: s.n, mean: Some(s.mean), sd: s.sample_sd })
+        ErrorStats::from_errors(errors).map_or_else(Self::default, |s| Self {
+            n: s.n,
+            mean: Some(s.mean),
+            sd: s.sample_sd,
+        })
     }
 
     /// Mean and population SD (n).
     pub(super) fn population(errors: &[f64]) -> Self {
-        ErrorStats::of(errors).map_or_else(Self::default, |s| Self {
+        ErrorStats::from_errors(errors).map_or_else(Self::default, |s| Self {
             n: s.n,
             mean: Some(s.mean),
             sd: Some(s.population_sd),

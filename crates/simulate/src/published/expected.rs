@@ -115,7 +115,7 @@ fn setup_summary<'a>(
     errors_pct: &[f64],
     tolerance_pct: Option<f64>,
 ) -> Option<SetupExpected<'a>> {
-    let stats = ErrorStats::of(errors_pct)?;
+    let stats = ErrorStats::from_errors(errors_pct)?;
     Some(SetupExpected {
         row,
         object,
@@ -156,7 +156,7 @@ fn rater_rows(table: &Table<RaterRow>, tolerance_pct: Option<f64>) -> Vec<RaterE
 }
 
 fn rater_overall(row: &'static str, errors_pct: &[f64], tolerance_pct: Option<f64>) -> Option<RaterExpected<'static>> {
-    let stats = ErrorStats::of(errors_pct)?;
+    let stats = ErrorStats::from_errors(errors_pct)?;
     Some(RaterExpected {
         row,
         object: None,

@@ -70,7 +70,7 @@ pub fn score(trials: &[Trial]) -> Score {
 #[expect(clippy::cast_precision_loss, reason = "a count of sizes is far below 2^53")]
 fn line((level, quantity, subject, method): Key, group: &[&Trial]) -> Option<Line> {
     let error_pct = |t: &&Trial| 100.0 * (t.predicted_mm - t.true_mm) / t.true_mm;
-    let all = ErrorStats::of(&group.iter().map(error_pct).collect::<Vec<_>>())?;
+    let all = ErrorStats::from_errors(&group.iter().map(error_pct).collect::<Vec<_>>())?;
     let claimed: Vec<&Trial> = group.iter().copied().filter(|t| t.claims).collect();
     let within = |k: f64| {
         let held = claimed.iter().filter(|t| (t.predicted_mm - t.true_mm).abs() <= k * t.sigma_mm).count();
@@ -85,7 +85,7 @@ fn line((level, quantity, subject, method): Key, group: &[&Trial]) -> Option<Lin
         claimed: claimed.len(),
         bias_pct: all.mean,
         rmse_pct: all.rms,
-        claimed_rmse_pct: ErrorStats::of(&claimed.iter().map(error_pct).collect::<Vec<_>>())
+        claimed_rmse_pct: ErrorStats::from_errors(&claimed.iter().map(error_pct).collect::<Vec<_>>())
             .map_or(f64::NAN, |stats| stats.rms),
         within_1: within(1.0),
         within_2: within(K_95),

@@ -1,9 +1,8 @@
 //! Known sizes of a bench.
 
 use super::correction::Correction;
-use crate::container::{Method, Quantity};
+use crate::container::{Container, Method, Quantity};
 use crate::marks::ObjectMarks;
-use crate::measure::Container;
 use crate::source::Source;
 use crate::uncertainty::{Estimate, InputSigma, estimate};
 use crate::view::View;

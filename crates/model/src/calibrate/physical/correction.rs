@@ -34,7 +34,7 @@ impl Correction {
         Some(View::new(camera, Pose::new(pitch_rad, roll_rad, range_mm).ok()?))
     }
 
-    pub(super) fn of(values: &[f64; 4]) -> Self {
+    pub(super) fn from_values(values: &[f64; 4]) -> Self {
         let [mount_rad, range_scale, range_offset_mm, focal_share] = *values;
         Self { mount_rad, range_scale, range_offset_mm, focal_share }
     }

@@ -100,7 +100,7 @@ struct Fitted {
 /// What is known of a parameter of [`LEARNED`] beforehand, in its own unit. The mount's holds the accelerometer's pitch.
 #[must_use]
 pub fn prior_sd(prior: &InputSigma, source: Source) -> f64 {
-    if source == Source::Mount { prior.mount_rad.hypot(prior.pitch_rad) } else { prior.of(source) }
+    if source == Source::Mount { prior.mount_rad.hypot(prior.pitch_rad) } else { prior.sigma_of(source) }
 }
 
 fn fit(sizes: &[&BenchSize], prior: &InputSigma) -> Result<Fitted, CorrectionError> {

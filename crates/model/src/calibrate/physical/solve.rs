@@ -71,7 +71,7 @@ impl LogSizes<'_> {
         for (row, &i) in self.free.iter().enumerate() {
             values[i] = self.parameters[row] * UNITS[i];
         }
-        Correction::of(&values)
+        Correction::from_values(&values)
     }
 
     fn unweighted(&self) -> Option<Vec<f64>> {

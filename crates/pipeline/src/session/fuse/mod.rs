@@ -9,7 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use model::{Doubt, ErrorStats, Fused, Level, Method, Quantity, ResultRow, Share, SizeSigma, fuse as fuse_shares};
 
 use super::found::fused_sigma;
-use super::measurement::{Marked, Measurement};
+use super::marked::Marked;
+use super::measurement::Measurement;
 use super::row::{doubt_codes, error_pct, with_sigma};
 use crate::study::Study;
 
@@ -143,7 +144,7 @@ fn fused_row(rows: &[&ResultRow], fused: &Fused, level: Level, doubts: &[Doubt])
     let first = *rows.first()?;
     let mean = |value: fn(&ResultRow) -> Option<f64>| {
         let values: Option<Vec<f64>> = rows.iter().map(|row| value(row)).collect();
-        ErrorStats::of(&values?).map(|stats| stats.mean)
+        ErrorStats::from_errors(&values?).map(|stats| stats.mean)
     };
     let images: BTreeSet<&Option<String>> = rows.iter().map(|row| &row.image).collect();
     let row = ResultRow {

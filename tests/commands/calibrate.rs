@@ -26,7 +26,7 @@ fn rms_of_plates(results: &Results) -> f64 {
         .filter(|row| row.level == Level::Frame && row.method == Method::Paper && row.kind == model::Kind::Plate)
         .filter_map(|row| row.error_pct)
         .collect();
-    model::ErrorStats::of(&errors).unwrap().rms
+    model::ErrorStats::from_errors(&errors).unwrap().rms
 }
 
 /// The figures of docs/accuracy.md.

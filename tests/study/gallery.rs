@@ -10,7 +10,7 @@ use serde_json::Value;
 use simulate::render::Renderer;
 use simulate::scene::{Outline, Plate, Scene, Solid};
 
-use crate::auto::undecodable;
+use super::auto::undecodable;
 use crate::support::{Shot, StudyFolder, aim_batch, assert_exit, label_me, line, outline};
 
 /// A wide lens, so that a mark at its wrong place would be far from the rim.

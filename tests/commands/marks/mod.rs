@@ -8,7 +8,7 @@ use std::process::Output;
 use model::ResultRow;
 use report::Results;
 
-use crate::methods::{OBJECTS, shot};
+use crate::study::methods::{OBJECTS, shot};
 use crate::support::{
     StudyFolder, assert_exit, copy_folder, files_below, label_me, line, published_bench, run, small_camera, stderr,
     stdout,

@@ -2,11 +2,9 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::height::camera_height;
-use super::numbered::Numbered;
-use super::{MeasureError, height::possible_height};
 use crate::fusion::{Share, combined};
 use crate::marks::ObjectMarks;
+use crate::measure::{HeightLine, MeasureError, Numbered, camera_height, possible_height};
 use crate::sensed::Sensed;
 use crate::uncertainty::{InputSigma, Sensitivity, SizeSigma};
 use crate::view::View;
@@ -44,8 +42,8 @@ impl Sight {
 /// # Errors
 /// [`MeasureError`] where an end has no place on the table.
 pub fn sights(view: &View, marks: &ObjectMarks) -> Result<Vec<Sight>, MeasureError> {
-    let numbered = Numbered::of(marks);
-    let of_line = |line: super::height::HeightLine| {
+    let numbered = Numbered::from_marks(marks);
+    let of_line = |line: HeightLine| {
         let [foot, rim] = line.distances(view, numbered.points)?;
         let above = camera_height(view, numbered.points);
         let cotangent = rim.value / above.value;

@@ -82,7 +82,7 @@ fn broken_rules(members: &[Member]) -> Vec<String> {
     let mut broken = Vec::new();
     for Member { name, uses } in members {
         let Some((_, allowed)) = LAYERS.iter().find(|(layer, _)| layer == name) else {
-            broken.push(format!("crate '{name}' has no layer: give it a line in LAYERS of tests/layers.rs"));
+            broken.push(format!("crate '{name}' has no layer: give it a line in LAYERS of tests/repository/layers.rs"));
             continue;
         };
         for used in uses {

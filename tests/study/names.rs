@@ -2,7 +2,7 @@
 
 use model::{Level, Problem, Quantity, Severity};
 
-use crate::auto::{Ran, by_ray, damage, run, study};
+use super::auto::{Ran, by_ray, damage, run, study};
 use crate::support::{StudyFolder, aim_batch, assert_exit, stderr};
 
 const AUTO: [&str; 2] = ["--marks", "auto"];

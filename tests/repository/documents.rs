@@ -38,6 +38,7 @@ fn links_lead_somewhere() {
         "ARCHITECTURE.md",
         "CONTRIBUTING.md",
         "docs/accuracy.md",
+        "docs/glossary.md",
         "docs/study.md",
         "docs/uncertainty.md",
         "docs/calibration.md",

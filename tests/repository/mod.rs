@@ -1,0 +1,6 @@
+//! The repository itself: the dependency rules hold, between the crates and between the modules of pipeline, and the documents
+//! agree with the files, commands and links that they name. Nothing is measured here.
+
+mod documents;
+mod layers;
+mod pipeline_layers;
