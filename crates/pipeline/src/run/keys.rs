@@ -7,13 +7,14 @@ use ingest::Fingerprint;
 use model::CameraSpec;
 use serde::Serialize;
 
-use crate::calibrate::CalibrationFile;
+use crate::calibration::CalibrationFile;
 use crate::inputs::{sha256_of_bytes, sha256_of_file};
 use crate::rims::{self, RimShape};
-use crate::session::{AUTO, Prepared};
+use crate::session::Prepared;
 use crate::signals::ReadingSettings;
 use crate::study::{
-    MarksSource, MeasureSpec, Named, SelectSpec, SessionDir, SessionSpec, SignalsSpec, Study, TimeSpec, UncertaintySpec,
+    AUTO, MarksSource, MeasureSpec, Named, SelectSpec, SessionDir, SessionSpec, SignalsSpec, Study, TimeSpec,
+    UncertaintySpec,
 };
 
 /// Version of what the signals stage gives. A change of meaning gives another number, and recordings are read anew.
@@ -36,7 +37,7 @@ pub(super) fn signals_key(study: &Study, program: &str, ingest_key: &str) -> Res
         version: SIGNALS_VERSION,
         program,
         ingest: ingest_key,
-        settings: ReadingSettings::from(&study.spec.signals),
+        settings: study.spec.signals.reading_settings(),
         time: &study.spec.time,
     })
 }
