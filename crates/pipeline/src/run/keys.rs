@@ -13,8 +13,8 @@ use crate::rims::{self, RimShape};
 use crate::session::Prepared;
 use crate::signals::ReadingSettings;
 use crate::study::{
-    AUTO, MarksSource, MarksSpec, MeasureSpec, MountSpec, Named, SelectSpec, SessionDir, SessionSpec, SignalsSpec, Study,
-    StudySpec, TimeSpec, UncertaintySpec,
+    AUTO, MarksSource, MarksSpec, MeasureSpec, MountSpec, Named, SelectSpec, SessionDir, SessionSpec, SignalsSpec,
+    Study, StudySpec, TimeSpec, UncertaintySpec,
 };
 
 /// Version of what the signals stage gives. A change of meaning gives another number, and recordings are read anew.
