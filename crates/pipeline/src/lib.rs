@@ -13,6 +13,7 @@
 
 mod annotate;
 pub mod calibrate;
+pub mod calibration;
 mod check;
 pub mod exchange;
 #[cfg(debug_assertions)]
@@ -22,10 +23,10 @@ mod inputs;
 pub mod inspect;
 pub mod labelme;
 pub mod overlay;
+mod parallel;
 mod reporter;
 mod run;
 mod session;
-mod sessions;
 pub mod signals;
 mod stop;
 pub mod study;
@@ -37,9 +38,9 @@ pub use annotate::{Annotated, NotAnnotated, annotate};
 pub use check::{Checked, check};
 pub use gallery::{Gallery, GalleryError, GalleryHalted, GalleryOptions, NotShown, gallery};
 pub use inspect::{inspect_file, inspect_study};
+pub use parallel::default_jobs;
 pub use reporter::{Reporter, Silent, Totals};
 pub use run::{Current, Halted, Ran, RunError, RunOptions, SessionState, StudyState, run, status};
-pub use sessions::default_jobs;
 pub use stop::Stop;
 pub use study::{Study, StudyError};
 pub use survey::{SurveyError, SurveyOptions};

@@ -4,9 +4,9 @@ use std::num::NonZeroUsize;
 
 use tempfile::TempDir;
 
+use crate::parallel::in_parallel;
 use crate::reporter::{Reporter, Totals};
 use crate::session::SessionOptions;
-use crate::sessions::in_parallel;
 use crate::stop::Stop;
 use crate::study::{SessionDir, Study};
 
@@ -50,6 +50,7 @@ impl Survey {
         let options = SessionOptions {
             mcap_dir: folder.path().canonicalize()?,
             survey: true,
+            is_bench: false,
             program: options.program.clone(),
             stop: options.stop.clone(),
         };

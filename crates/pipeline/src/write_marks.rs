@@ -7,8 +7,8 @@ use std::path::{Component, Path, PathBuf};
 use model::Stage;
 
 use crate::labelme::{AutoRim, text_of};
-use crate::session::{AUTO, Prepared, SessionOutput, stem_of};
-use crate::study::{SessionDir, Study};
+use crate::session::{Prepared, SessionOutput};
+use crate::study::{AUTO, SessionDir, Study, stem_of};
 use crate::work::{WorkError, WorkFolder};
 
 /// What was written.

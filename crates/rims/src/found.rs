@@ -1,6 +1,6 @@
 //! What is known of a rim that was found, besides its points; it goes with them wherever they go.
 
-use model::{Kind, Shape};
+use model::{Container, Kind, Shape};
 use serde::{Deserialize, Serialize};
 
 use crate::rim::Rim;
@@ -47,6 +47,12 @@ impl Rim {
 }
 
 impl Found {
+    /// The container that it looks like; its height and its wall are not known.
+    #[must_use]
+    pub fn container(&self) -> Container {
+        Container { kind: self.kind, shape: self.shape, rim_height_mm: None, wall: None }
+    }
+
     /// What is wrong with its numbers, if anything: they may come from a file that somebody edited.
     #[must_use]
     pub fn fault(&self) -> Option<&'static str> {

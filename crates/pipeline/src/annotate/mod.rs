@@ -12,10 +12,10 @@ use ingest::{AnnotateError, Annotating, ByteBudget, ImageEntry, SessionReader};
 use model::{Camera, SessionStatus, Stage};
 
 use crate::inputs::sha256_of_bytes;
+use crate::parallel::{in_parallel, unless_panicking};
 use crate::reporter::{Reporter, Totals};
 use crate::run::{Halted, RunOptions, program_and_commit};
 use crate::session::{SessionOutput, without_host};
-use crate::sessions::{in_parallel, unless_panicking};
 use crate::study::{SessionDir, Study};
 use crate::work::{Kept, WorkError, WorkFolder, annotated_of};
 use notes::Notes;

@@ -7,9 +7,9 @@ use std::collections::BTreeSet;
 
 use model::{Problem, SessionStatus, Stage, StudyFlow};
 
+use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
 use crate::session::{SessionOutput, failed, run_session};
-use crate::sessions::unless_panicking;
 use crate::study::Study;
 use crate::survey::{Survey, SurveyError, SurveyOptions};
 use sizes::Measured;

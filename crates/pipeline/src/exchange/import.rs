@@ -9,8 +9,8 @@ use super::label::Names;
 use super::pictures::{Picture, Pictures};
 use super::{ExchangeError, read};
 use crate::labelme::{self, MarksError, OutShape};
-use crate::session::{AUTO, Prepared, stem_of};
-use crate::study::{SessionDir, Study};
+use crate::session::Prepared;
+use crate::study::{AUTO, SessionDir, Study, stem_of};
 use crate::write_marks::{picture_for, write_whole};
 
 /// How marks are carried over.

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use ingest::card::{Card, Patterns};
 
-use crate::session::{Prepared, stem_of};
-use crate::study::{SessionDir, Study};
+use crate::session::Prepared;
+use crate::study::{SessionDir, Study, stem_of};
 
 /// A session whose pictures may be marked.
 pub(super) struct MarkedSession<'a> {

@@ -19,9 +19,9 @@ use rayon::prelude::*;
 
 pub use error::{GalleryError, GalleryHalted};
 
+use crate::parallel::jobs_or_default;
 use crate::reporter::{Reporter, Totals};
 use crate::session::{SessionOutput, Shown, ShownImage};
-use crate::sessions::jobs_or_default;
 use crate::stop::Stop;
 use crate::work::{State, recording_of, state_file};
 use marks::Marked;

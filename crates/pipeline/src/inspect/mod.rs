@@ -17,9 +17,9 @@ use std::path::Path;
 use ingest::{ReadError, SessionReader};
 use model::{Problem, SessionStatus, Severity, Stage};
 
+use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
 use crate::session::{Prepared, ingest_unkept, without_host};
-use crate::sessions::unless_panicking;
 use crate::study::{SessionDir, Study};
 use crate::survey::{Survey, SurveyError, SurveyOptions};
 

@@ -9,8 +9,8 @@ use super::plan::{Common, SessionPlan};
 use super::tally::Tally;
 use super::worker::{Done, Worker};
 use super::{Halted, RunOptions};
+use crate::parallel::in_parallel;
 use crate::reporter::Reporter;
-use crate::sessions::in_parallel;
 use crate::study::SessionDir;
 use crate::work::WorkFolder;
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use ingest::{CardLook, Fingerprint};
+use ingest::{CardFingerprinter, Fingerprint};
 use model::{SessionStatus, Stage};
 
 use super::Halted;
@@ -47,14 +47,14 @@ pub(crate) struct Common<'a> {
     pub program: &'a str,
     /// SHA-256 of objects.csv.
     objects_csv: String,
-    pub look: CardLook,
+    pub look: CardFingerprinter,
 }
 
 impl<'a> Common<'a> {
     pub fn new(study: &'a Study, program: &'a str) -> Result<Self, Halted> {
         let objects = study.dir.join("objects.csv");
         let objects_csv = sha256_of_file(&objects).map_err(|source| Halted::Input { path: objects, source })?;
-        let look = CardLook::new(&study.profile).map_err(|error| Halted::Ingest { error: Box::new(error) })?;
+        let look = CardFingerprinter::new(&study.profile).map_err(|error| Halted::Ingest { error: Box::new(error) })?;
         Ok(Self { study, program, objects_csv, look })
     }
 

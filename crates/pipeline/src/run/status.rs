@@ -8,8 +8,8 @@ use model::SessionStatus;
 use super::Halted;
 use super::options::program_and_commit;
 use super::plan::{Common, Current};
+use crate::parallel::in_parallel;
 use crate::session::Prepared;
-use crate::sessions::in_parallel;
 use crate::study::{SessionDir, Study};
 use crate::work::{Holder, Kept, State, recording_of, state_file};
 

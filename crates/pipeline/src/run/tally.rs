@@ -7,7 +7,7 @@ use model::{RunLog, SessionLog, SessionStatus, Stage, StageLog};
 use super::RunOptions;
 use super::plan::{SessionPlan, statuses};
 use super::worker::Done;
-use crate::sessions::jobs_or_default;
+use crate::parallel::jobs_or_default;
 
 /// What a run did.
 pub(super) struct Tally {

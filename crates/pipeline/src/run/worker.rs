@@ -11,12 +11,12 @@ use super::plan::{Common, SessionPlan, of_recording};
 use super::{Halted, keys};
 use crate::inputs::sha256_of_bytes;
 use crate::labelme::MARKS_UNREADABLE;
+use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
 use crate::session::{
-    BAD_MCAP, CardProgress, Prepared, Recording, SearchError, Searched, failed, ingest_problem, measure,
+    BAD_MCAP, CardProgress, Measuring, Prepared, Recording, SearchError, Searched, failed, ingest_problem,
     read_recording, tidy,
 };
-use crate::sessions::unless_panicking;
 use crate::stop::Stop;
 use crate::work::{KeptStage, StageOutput, WorkError, WorkFolder};
 
@@ -100,7 +100,7 @@ impl Worker<'_> {
         let parts = self.common.measure_parts(plan.dir, &prepared, &signals_key);
         let fingerprint = parts.fingerprint(plan.dir)?.settled();
         let measure_key = parts.key(plan.dir)?;
-        let search_key = keys::search_key(parts, plan.dir)?;
+        let search_key = parts.search_key(plan.dir)?;
         let is_kept = |kept: &Option<_>, key: &str| {
             kept.as_ref().is_some_and(|stage: &KeptStage| stage.key == key) && !self.force
         };
@@ -123,7 +123,9 @@ impl Worker<'_> {
         let start = Instant::now();
         let auto = self.search(plan, &prepared, &recording, search_key.as_deref())?;
         let searched = search_key.filter(|_| is_whole).map(|key| Searched { key, problems: auto.problems.clone() });
-        let mut output = measure(self.common.study, plan.dir, &prepared, recording, auto, self.reporter);
+        let (study, reporter) = (self.common.study, self.reporter);
+        let measuring = Measuring { study, dir: plan.dir, prepared: &prepared, is_bench: false, reporter };
+        let mut output = measuring.measure(recording, auto);
         output.searched = searched;
         output.status.problems.extend(changed);
         tidy(&mut output, self.common.study, &self.work.mcap_dir);

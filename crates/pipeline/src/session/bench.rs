@@ -3,9 +3,9 @@
 use model::calibrate::physical::BenchSize;
 use model::{Estimate, Method, Pose, Quantity, View, best_of, estimate};
 
-use super::Session;
-use super::measurement::Marked;
-use crate::calibrate::BenchSession;
+use super::frames::Session;
+use super::marked::Marked;
+use super::output::BenchSession;
 
 /// Sizes with a truth, by the surest exact method whose assumptions hold.
 pub(super) fn of(session: &Session<'_>, marked: &[Marked<'_>]) -> BenchSession {

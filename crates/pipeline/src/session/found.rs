@@ -5,7 +5,7 @@ use model::{
     SizeSigma, View, estimate,
 };
 
-use super::measurement::Marked;
+use super::marked::Marked;
 use rims::{Found, HeightSource};
 
 /// Sizes by one method: of people's marks as they are; of a rim that was found with what is known of its height.

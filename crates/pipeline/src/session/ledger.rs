@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ingest::card::{Card, CardFile, Patterns};
 use model::{FrameReason, FrameRow, Method, ResultRow};
 
-use super::Session;
+use super::frames::Session;
 use super::marks::SessionMarks;
 use super::surest::Surest;
 use crate::study::{SessionDir, Study};

@@ -5,17 +5,16 @@ use std::path::{Path, PathBuf};
 
 use model::{FrameReason, ObjectMarks, Problem, Severity, Stage};
 
-use super::auto::{AUTO, container_of};
+use super::frames::Session;
 use super::naming::Naming;
 use super::problems::LINK_FACT;
-use super::{Session, SessionOutput, relative};
 use crate::inputs::sha256_of_bytes;
 use crate::labelme::{self, AutoRim, MarksError};
 use rims::Found;
-use crate::study::{Object, Study, marks_in};
+use crate::study::{AUTO, Object, SessionDir, Study, marks_in, stem_of};
 
 /// Marks by image (file on the card), then rater.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct SessionMarks {
     by_image: BTreeMap<String, BTreeMap<String, Vec<MarkedObject>>>,
     naming: Naming,
@@ -33,7 +32,7 @@ pub(super) struct MarkedObject {
 impl MarkedObject {
     /// An object of objects.csv, or one that was found; else none.
     fn new(study: &Study, marks: ObjectMarks, found: Option<Found>) -> Result<Self, ObjectMarks> {
-        let unlisted = || Some(Object { container: container_of(found.as_ref()?), truth_mm: BTreeMap::new() });
+        let unlisted = || Some(Object { container: found?.container(), truth_mm: BTreeMap::new() });
         match study.objects.get(&marks.object).cloned().or_else(unlisted) {
             Some(object) => Ok(Self { marks, object, found }),
             None => Err(marks),
@@ -42,82 +41,61 @@ impl MarkedObject {
 }
 
 impl SessionMarks {
-    /// Reads the marks of all raters. What cannot be used becomes a problem; the rest is kept.
-    pub(super) fn read(session: &Session<'_>, output: &mut SessionOutput) -> Self {
-        let mut marks = Self { naming: Naming::of(session.study, session.dir), ..Self::default() };
-        // A bench is measured by what people marked.
-        if !(session.study.spec.marks.source.reads() || session.study.is_bench) {
-            return marks;
-        }
+    /// Without marks; with the names that the study gives to what is found in the session.
+    pub(super) fn new(study: &Study, dir: &SessionDir) -> Self {
+        Self { by_image: BTreeMap::new(), naming: Naming::of(study, dir) }
+    }
+
+    /// Reads the marks of all raters. What cannot be used becomes a problem; the rest is kept. The hash of every file that
+    /// could be read is added to `inputs_sha256`.
+    pub(super) fn read(
+        &mut self,
+        session: &Session<'_>,
+        problems: &mut Vec<Problem>,
+        inputs_sha256: &mut BTreeMap<String, String>,
+    ) {
         let images = images_by_stem(session);
         for (rater, dir) in &session.dir.marks {
-            for file in files_of(session, dir, &mut output.status.problems) {
-                match marks.read_file(session, &images, &file, output) {
-                    Ok(Some((image, objects))) => {
-                        let by_rater = marks.by_image.entry(image).or_default();
+            for path in files_of(session, dir, problems) {
+                let place = session.study.relative(&path);
+                match self.read_file(session, &images, &path, problems, inputs_sha256) {
+                    Ok((image, objects)) => {
+                        let by_rater = self.by_image.entry(image).or_default();
                         if by_rater.insert(rater.clone(), objects).is_some() {
-                            output.status.problems.push(twice(relative(session.study, &file)));
+                            problems.push(twice(place));
                         }
                     }
-                    Ok(None) => {}
-                    Err(problem) => output.status.problems.push(problem),
+                    Err(problem) => problems.push(problem),
                 }
             }
         }
-        marks
     }
 
-    /// The image that a file belongs to, and its marks by object; none for an image that was dropped (which is a problem of
-    /// its own).
+    /// The image that a file belongs to, and its marks by object.
     fn read_file(
         &mut self,
         session: &Session<'_>,
         images: &ImagesByStem<'_>,
         path: &Path,
-        output: &mut SessionOutput,
-    ) -> Result<Option<(String, Vec<MarkedObject>)>, Problem> {
-        let place = relative(session.study, path);
+        problems: &mut Vec<Problem>,
+        inputs_sha256: &mut BTreeMap<String, String>,
+    ) -> Result<(String, Vec<MarkedObject>), Problem> {
+        let place = session.study.relative(path);
         let refuse = |error: MarksError| {
             problem(error.code(), place.clone(), error.to_string(), "correct the marks in LabelMe and run again")
         };
         let bytes = labelme::read_bytes(path).map_err(refuse)?;
-        output.inputs_sha256.insert(place.clone(), sha256_of_bytes(&bytes));
+        inputs_sha256.insert(place.clone(), sha256_of_bytes(&bytes));
         let marks = labelme::parse(&bytes, path, session.marks_camera.size_px()).map_err(refuse)?;
-        output.status.problems.extend(marks.refused.into_iter().map(refuse));
-        let stem = stem_of(&path.to_string_lossy());
-        match images.get(&stem).map(Vec::as_slice) {
-            None | Some([]) => Err(problem(
-                "marks_without_image",
-                place,
-                format!("the card has no image named {stem}"),
-                "give the file the image's name, or remove it",
-            )),
-            Some([Image { file, dropped: None }]) => {
-                let found = |of: ObjectMarks| {
-                    let found = marks.found.get(&of.object).copied();
-                    (of, found)
-                };
-                let marked = marks.objects.into_iter().map(found).collect();
-                let named = self.naming.named(marked, &place, &mut output.status.problems);
-                Ok(Some(((*file).to_owned(), known_objects(session, named, &place, output))))
-            }
-            Some([Image { dropped: Some(reason), .. }]) => {
-                let fact = format!("its image was dropped: {}", reason.meaning());
-                let remedy = "see the problem of the image itself";
-                output.status.problems.push(problem("marked_image_dropped", place, fact, remedy));
-                Ok(None)
-            }
-            Some(several) => {
-                let files: Vec<_> = several.iter().map(|image| image.file).collect();
-                let fact = format!("several images have this name: {}", files.join(", "));
-                Err(problem(
-                    "ambiguous_marks",
-                    place,
-                    fact,
-                    "rename all but one in the copy of the card, and its marks",
-                ))
-            }
-        }
+        problems.extend(marks.refused.into_iter().map(refuse));
+        let image = image_of(images, &stem_of(&path.to_string_lossy()), &place)?;
+        let with_found = |of: ObjectMarks| {
+            let found = marks.found.get(&of.object).copied();
+            (of, found)
+        };
+        let marked = marks.objects.into_iter().map(with_found).collect();
+        let named = self.naming.named(marked, &place, problems);
+        Ok((image.to_owned(), known_objects(session, named, &place, problems)))
     }
 
     /// Adds what the program found, as rater [`AUTO`]. A file of that rater comes first.
@@ -159,7 +137,7 @@ fn twice(place: String) -> Problem {
 fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> Vec<PathBuf> {
     if !session.study.holds(dir) {
         let remedy = "copy the marks into the study";
-        problems.push(problem("link_out_of_study", relative(session.study, dir), LINK_FACT.to_owned(), remedy));
+        problems.push(problem("link_out_of_study", session.study.relative(dir), LINK_FACT.to_owned(), remedy));
         return Vec::new();
     }
     match marks_in(dir) {
@@ -168,7 +146,7 @@ fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> V
             let fact = format!("cannot list the folder: {error}");
             problems.push(problem(
                 labelme::MARKS_UNREADABLE,
-                relative(session.study, dir),
+                session.study.relative(dir),
                 fact,
                 "check its permissions",
             ));
@@ -195,11 +173,37 @@ fn images_by_stem<'a>(session: &'a Session<'_>) -> ImagesByStem<'a> {
     images
 }
 
+/// The one image of the card that has this name, if it can be used.
+fn image_of<'a>(images: &ImagesByStem<'a>, stem: &str, place: &str) -> Result<&'a str, Problem> {
+    let refuse = |code, fact, remedy| Err(problem(code, place.to_owned(), fact, remedy));
+    match images.get(stem).map(Vec::as_slice) {
+        None | Some([]) => refuse(
+            "marks_without_image",
+            format!("the card has no image named {stem}"),
+            "give the file the image's name, or remove it",
+        ),
+        Some([Image { file, dropped: None }]) => Ok(file),
+        Some([Image { dropped: Some(reason), .. }]) => refuse(
+            "marked_image_dropped",
+            format!("its image was dropped: {}", reason.meaning()),
+            "see the problem of the image itself",
+        ),
+        Some(several) => {
+            let files: Vec<_> = several.iter().map(|image| image.file).collect();
+            refuse(
+                "ambiguous_marks",
+                format!("several images have this name: {}", files.join(", ")),
+                "rename all but one in the copy of the card, and its marks",
+            )
+        }
+    }
+}
+
 fn known_objects(
     session: &Session<'_>,
     marks: Vec<(ObjectMarks, Option<Found>)>,
     place: &str,
-    output: &mut SessionOutput,
+    problems: &mut Vec<Problem>,
 ) -> Vec<MarkedObject> {
     let (mut known, mut unknown) = (Vec::new(), Vec::new());
     for (marks, found) in marks {
@@ -212,13 +216,9 @@ fn known_objects(
         let names: Vec<_> = session.study.objects.keys().map(String::as_str).collect();
         let fact = format!("object '{}' is not in objects.csv, which has: {}", marks.object, names.join(", "));
         let remedy = "add it to objects.csv, or correct the label in LabelMe";
-        output.status.problems.push(problem("unknown_object", place.to_owned(), fact, remedy));
+        problems.push(problem("unknown_object", place.to_owned(), fact, remedy));
     }
     known
-}
-
-pub(crate) fn stem_of(file: &str) -> String {
-    Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
 fn problem(code: &str, place: String, fact: String, remedy: &str) -> Problem {

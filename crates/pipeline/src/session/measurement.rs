@@ -3,40 +3,14 @@
 use std::collections::BTreeSet;
 
 use model::{
-    Doubt, Estimate, FrameFlag, InputSigma, MeasureError, Method, ObjectMarks, Problem, Quantity, ResultRow, Severity,
-    Stage, View, best_of,
+    Doubt, Estimate, InputSigma, MeasureError, Method, Problem, Quantity, ResultRow, Severity, Stage, View, best_of,
 };
 
 use super::found;
-use super::marks::{MarkedObject, SessionMarks};
+use super::frames::penalty_of;
+use super::marked::Marked;
 use super::row::frame_row;
-use super::{Frame, Session};
-use crate::calibrate::{corrected_view, inputs_after, scaled_paper};
-use rims::Found;
-use crate::study::{Object, Study};
-
-/// One object as one rater marked it on one frame.
-pub(super) struct Marked<'a> {
-    pub session: &'a Session<'a>,
-    /// Number of the frame in its session.
-    pub number: usize,
-    pub frame: &'a Frame,
-    pub rater: &'a str,
-    pub object: &'a Object,
-    pub marks: &'a ObjectMarks,
-    /// What is known of a rim that the program found.
-    pub found: Option<Found>,
-    /// Uncertainties of this image.
-    pub inputs: InputSigma,
-}
-
-impl Marked<'_> {
-    /// The view that a method works with; none without a pose.
-    pub(super) fn view(&self, method: Method) -> Option<View> {
-        let view = View::new(self.session.marks_camera, self.frame.signals.pose_for(method)?);
-        corrected_view(self.session.study.calibration.as_ref(), method, view)
-    }
-}
+use crate::calibration::scaled_paper;
 
 /// A row with the estimate behind it.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,29 +31,6 @@ pub(super) struct Measurement {
 /// The methods that give sizes from one image.
 pub(super) const ON_ONE_IMAGE: [Method; 3] = [Method::Paper, Method::Ray, Method::Coaxial];
 
-/// Everything that is marked on frames with a pose.
-pub(super) fn marked<'a>(
-    session: &'a Session<'a>,
-    marks: &'a SessionMarks,
-    problems: &mut Vec<Problem>,
-) -> Vec<Marked<'a>> {
-    let mut found = Vec::new();
-    for (number, frame) in session.frames.iter().enumerate() {
-        for (rater, objects) in marks.of_image(&frame.image.file) {
-            if frame.signals.pose.is_none() {
-                problems.push(unusable(session, frame, rater));
-                continue;
-            }
-            let inputs = inputs_of(session.study, frame);
-            found.extend(objects.iter().map(|MarkedObject { marks, object, found }| {
-                let found = *found;
-                Marked { session, number, frame, rater, object, marks, found, inputs }
-            }));
-        }
-    }
-    found
-}
-
 /// Sizes of single images, in the order that docs/results.md gives.
 pub(super) fn measure_all(marked: &[Marked<'_>], problems: &mut Vec<Problem>) -> Vec<Measurement> {
     let mut found: Vec<Measurement> = marked.iter().flat_map(|marked| measure_one(marked, problems)).collect();
@@ -91,32 +42,6 @@ pub(super) fn measure_all(marked: &[Marked<'_>], problems: &mut Vec<Problem>) ->
 fn order(row: &ResultRow) -> impl Ord + '_ {
     (row.time_utc, &row.image, &row.object, &row.rater, row.quantity, row.method)
 }
-
-/// Uncertainties of one image: the study's, with the noise that its own signals show.
-pub(super) fn inputs_of(study: &Study, frame: &Frame) -> InputSigma {
-    let signals = &frame.signals;
-    let readings = f64::from(signals.range_distinct.max(1));
-    let range_error_mm = signals.range_spread_mm.unwrap_or_default() / readings.sqrt();
-    let inputs = study.spec.uncertainty.inputs_of_image(signals.stillness_mg.unwrap_or_default(), range_error_mm);
-    inputs_after(study.calibration.as_ref(), inputs)
-}
-
-/// Doubts about an image that its uncertainties do not hold: motion near the threshold, readings of the range that scatter
-/// by more than the sensor's accuracy, and flagged signals (docs/uncertainty.md).
-pub(super) fn penalty_of(study: &Study, frame: &Frame) -> f64 {
-    let signals = &frame.signals;
-    let motion = signals.stillness_mg.unwrap_or_default() / study.spec.signals.stillness_max_mg;
-    let range_mm = signals.range_mm.unwrap_or(f64::INFINITY);
-    let spread = signals.range_spread_mm.unwrap_or_default() / (UNSTEADY_RANGE * range_mm);
-    let doubtful = [FrameFlag::RangeHeld, FrameFlag::RangeStep, FrameFlag::GravityEdge];
-    let flags = signals.flags.iter().filter(|flag| doubtful.contains(flag)).count();
-    (1.0 + motion * motion) * (1.0 + spread * spread) * FLAGGED.powi(i32::try_from(flags).unwrap_or(i32::MAX))
-}
-
-/// Readings that scatter by this share of the range are unsteady.
-const UNSTEADY_RANGE: f64 = 0.03;
-/// A flag doubles the standard uncertainty that an image is weighed with.
-const FLAGGED: f64 = 4.0;
 
 fn measure_one(marked: &Marked<'_>, problems: &mut Vec<Problem>) -> Vec<Measurement> {
     let asked = &marked.session.study.spec.measure.methods;
@@ -210,17 +135,6 @@ fn tell(
     // Marks for a method that needs several images give nothing on one.
     if sizes.is_empty() && marked.session.study.spec.measure.methods.iter().any(|m| *m != Method::Joint) {
         problems.push(nothing(marked));
-    }
-}
-
-fn unusable(session: &Session<'_>, frame: &Frame, rater: &str) -> Problem {
-    Problem {
-        severity: Severity::Loss,
-        stage: Stage::Signals,
-        code: "marked_image_without_pose".to_owned(),
-        place: session.place_of(&frame.image.file),
-        fact: format!("marked by {rater}, but {}", frame.signals.reason.meaning()),
-        remedy: "mark another image of the same object, or see frames.parquet for the numbers behind it".to_owned(),
     }
 }
 

@@ -6,7 +6,6 @@ use ingest::SessionSource;
 use model::{Camera, CameraSpec, Problem, Severity, Stage};
 
 use super::problems::{MARKS_CAMERA_FACT, bad_camera, card_out_of_reach, link_out_of_study, missing_card};
-use super::relative;
 use crate::inputs::sha256_of_file;
 use crate::signals::PoseSettings;
 use crate::study::{SessionDir, SessionSpec, Study};
@@ -54,7 +53,7 @@ impl Prepared {
     /// From readings to pose and choice; `mount_pitch_deg` is the device profile's.
     pub fn pose_settings(&self, study: &Study, mount_pitch_deg: f64) -> PoseSettings {
         let mount_pitch_deg = study.spec.mount.pitch_offset_deg.unwrap_or(mount_pitch_deg);
-        PoseSettings::new(&study.spec.signals, &study.spec.select, mount_pitch_deg.to_radians())
+        study.spec.signals.pose_settings(&study.spec.select, mount_pitch_deg.to_radians())
     }
 }
 
@@ -63,7 +62,7 @@ fn session_spec(study: &Study, card: &Path) -> Result<(SessionSpec, Option<(Stri
     if !path.is_file() {
         return Ok((SessionSpec::default(), None));
     }
-    let place = relative(study, &path);
+    let place = study.relative(&path);
     let refuse = |fact: String| Problem {
         severity: Severity::Loss,
         stage: Stage::Study,

@@ -4,21 +4,7 @@ use std::path::Path;
 
 use model::{Problem, Severity, Stage};
 
-use super::Session;
 use crate::study::{SessionDir, Study};
-
-/// A card none of whose images has a pose: a dead sensor, or a profile that does not fit.
-pub(super) fn no_pose(session: &Session<'_>) -> Option<Problem> {
-    let reason = session.frames.first()?.signals.reason;
-    session.frames.iter().all(|frame| frame.signals.pose.is_none()).then(|| Problem {
-        severity: Severity::Loss,
-        stage: Stage::Signals,
-        code: "no_image_with_pose".to_owned(),
-        place: format!("cards/{}", session.dir.name),
-        fact: format!("none of its {} images has a pose; of the first: {}", session.frames.len(), reason.meaning()),
-        remedy: "check the sensors' files, and axes, scales and mount offset of the device profile".to_owned(),
-    })
-}
 
 /// Errors of files carry whole paths; what goes into the results must not depend on where the study lies.
 pub(crate) fn without_host(fact: &str, study: &Study, mcap_dir: &Path) -> String {

@@ -8,8 +8,8 @@ use model::{Problem, Severity, Stage};
 use serde::{Deserialize, Serialize};
 
 use super::lag;
-use crate::signals::{self, GravityCalibration, Reading, ReadingSettings};
-use crate::study::{GravityCalibrate, Study};
+use crate::signals::{self, GravityCalibrate, GravityCalibration, Reading};
+use crate::study::Study;
 
 /// What the signals stage gives: all that measuring needs to know of a recording, but the pictures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -42,7 +42,7 @@ pub(crate) fn read(study: &Study, mcap: &Path, name: &str) -> Result<Recording, 
     let images = reader.images().map_err(refuse)?;
     let lag_s = study.spec.time.image_lag_s;
     let times: Vec<_> = images.iter().map(|image| image.time.plus_seconds(lag_s)).collect();
-    let settings = ReadingSettings::from(&study.spec.signals);
+    let settings = study.spec.signals.reading_settings();
     let found = signals::at_images(&mut reader, &times, &settings).map_err(refuse)?;
     let mut problems = metadata.problems.clone();
     problems.extend(found.calibration.and_then(|calibration| calibration_note(study, name, &calibration)));

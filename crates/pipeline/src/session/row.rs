@@ -4,7 +4,7 @@ use model::results::RESULTS_SCHEMA_VERSION;
 use model::{Doubt, Estimate, FrameReason, Level, MeasureError, Method, Pose, Quantity, ResultRow, SizeSigma};
 
 use super::found::height_source;
-use super::measurement::Marked;
+use super::marked::Marked;
 use rims::HeightSource;
 
 /// The row of one size on one image.

@@ -7,8 +7,8 @@ use model::{Camera, CameraSpec, Feature, Mark, Method, Pose, Quantity, View};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
-use super::measurement::Marked;
-use crate::calibrate::corrected_view;
+use super::marked::Marked;
+use crate::calibration::corrected_view;
 
 /// The pictures of a session in which something was measured.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

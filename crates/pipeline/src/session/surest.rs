@@ -6,9 +6,8 @@ use std::f64::consts::TAU;
 use model::{Container, Feature, FrameReason, Kind, Mark, Method, ObjectMarks, Shape, View, estimate};
 use nalgebra::{Point2, Point3};
 
-use super::measurement::{inputs_of, penalty_of};
-use super::{Frame, Session};
-use crate::calibrate::corrected_view;
+use super::frames::{Frame, Session, inputs_of, penalty_of};
+use crate::calibration::corrected_view;
 
 /// Predicted uncertainty and rank of the selected images of a session, by their number.
 pub(super) struct Surest {

@@ -3,11 +3,13 @@
 
 use std::path::Path;
 
-use model::{Method, Severity};
+use model::{Method, ResultRow, Severity};
 
-use super::*;
+use super::{SessionOptions, SessionOutput, run_session};
 use crate::reporter::Silent;
-use crate::study::{GravityCalibrate, RangeCone, StudySpec};
+use crate::signals::{GravityCalibrate, RangeCone};
+use crate::stop::Stop;
+use crate::study::{Study, StudySpec};
 
 /// Without losses.
 fn run(adjust: impl FnOnce(&mut StudySpec)) -> SessionOutput {
@@ -24,6 +26,7 @@ fn run_with(adjust: impl FnOnce(&mut StudySpec)) -> SessionOutput {
     let options = SessionOptions {
         mcap_dir: mcap_dir.path().to_owned(),
         survey: false,
+        is_bench: false,
         program: "test".to_owned(),
         stop: Stop::default(),
     };

@@ -6,8 +6,7 @@ use nalgebra::{Rotation3, Vector3};
 use super::FrameSignals;
 use super::gravity::Gravity;
 use super::range::{Range, cone};
-use super::settings::PoseSettings;
-use crate::study::RangeCone;
+use super::settings::{PoseSettings, RangeCone};
 
 /// What the sensors say about one image; none when its time exists twice.
 pub(super) fn signals(found: Option<(Option<Gravity>, Range)>, settings: &PoseSettings) -> FrameSignals {
@@ -89,8 +88,8 @@ fn reason(signals: &FrameSignals, settings: &PoseSettings) -> FrameReason {
     if stillness_mg > settings.stillness_max_mg {
         return FrameReason::Moving;
     }
-    let off_target_deg = (pitch_rad.to_degrees() - settings.select.target_pitch_deg).abs();
-    if off_target_deg > settings.select.pitch_tolerance_deg {
+    let off_target_deg = (pitch_rad.to_degrees() - settings.target_pitch_deg).abs();
+    if off_target_deg > settings.pitch_tolerance_deg {
         return FrameReason::PitchOutsideTarget;
     }
     FrameReason::Selected
@@ -108,7 +107,6 @@ mod tests {
     use model::Method;
 
     use super::*;
-    use crate::study::{SelectSpec, SignalsSpec};
 
     /// What an accelerometer at rest reads, when its forward axis points `pitch` below the horizon.
     fn at_rest(sensor_pitch_deg: f64, roll_deg: f64) -> Vector3<f64> {
@@ -128,7 +126,7 @@ mod tests {
     }
 
     fn settings() -> PoseSettings {
-        PoseSettings::new(&SignalsSpec::default(), &SelectSpec::default(), 21_f64.to_radians())
+        PoseSettings::with_mount(21_f64.to_radians())
     }
 
     fn said(specific_force_g: Vector3<f64>, motion_rms_g: f64, range_mm: Option<f64>) -> FrameSignals {

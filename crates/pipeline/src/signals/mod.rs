@@ -18,14 +18,13 @@ use model::{FrameFlag, FrameReason, Method, Pose, UtcNs};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::study::GravityCalibrate;
 use calibration::StillWindows;
 pub use calibration::{AxisCalibration, CalibrationVerdict, GravityCalibration};
 pub(crate) use frame::down_in_camera;
 use gravity::Gravity;
 pub(crate) use range::NO_TARGET_MM;
 use range::Range;
-pub use settings::{PoseSettings, ReadingSettings};
+pub use settings::{GravityCalibrate, PoseSettings, RangeCone, ReadingSettings};
 use window::Windows;
 
 /// What the sensors say about one image.

@@ -7,7 +7,6 @@ use ingest::timeline::Span;
 use model::FrameReason;
 
 use super::*;
-use crate::study::{SelectSpec, SignalsSpec};
 
 const RATE_HZ: f64 = 32.0;
 
@@ -20,7 +19,7 @@ fn settings(gravity_calibration: GravityCalibrate) -> ReadingSettings {
 }
 
 fn judged(found: &SessionReadings) -> Vec<FrameSignals> {
-    let settings = PoseSettings::new(&SignalsSpec::default(), &SelectSpec::default(), 21_f64.to_radians());
+    let settings = PoseSettings::with_mount(21_f64.to_radians());
     found.readings.iter().map(|reading| reading.judge(&settings)).collect()
 }
 

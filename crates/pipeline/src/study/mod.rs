@@ -16,17 +16,16 @@ use std::path::{Path, PathBuf};
 use ingest::Profile;
 use model::{Camera, CameraSpec, TableSpec};
 
-use crate::calibrate::CalibrationFile;
+use crate::calibration::CalibrationFile;
 pub use error::StudyError;
 pub use marks_source::{MarksSource, UnknownMarksSource};
-pub(crate) use names::{FOUND, NAMES_FILE, number_of_found};
+pub(crate) use names::{AUTO, FOUND, NAMES_FILE, number_of_found};
 pub use names::{Named, Names};
 pub use objects::Object;
-pub(crate) use sessions::marks_in;
 pub use sessions::{SessionDir, SessionSpec};
+pub(crate) use sessions::{marks_in, stem_of};
 pub use spec::{
-    GravityCalibrate, MarksSpec, MeasureSpec, MountSpec, PrintedFiles, RangeCone, SelectSpec, SignalsSpec, StudySpec,
-    TableEntry, TimeSpec,
+    MarksSpec, MeasureSpec, MountSpec, PrintedFiles, SelectSpec, SignalsSpec, StudySpec, TableEntry, TimeSpec,
 };
 pub use uncertainty::UncertaintySpec;
 
@@ -55,8 +54,6 @@ pub struct Study {
     pub sessions: Vec<SessionDir>,
     /// What a bench has taught about the device, where a run is told of it.
     pub calibration: Option<CalibrationFile>,
-    /// Whether sessions are to keep their known sizes, for a calibration.
-    pub(crate) is_bench: bool,
 }
 
 impl Study {
@@ -88,7 +85,6 @@ impl Study {
             dir: dir.to_owned(),
             spec,
             calibration: None,
-            is_bench: false,
         };
         camera_of(&study.spec.camera, &study.camera_spec)?;
         study.check_tables()?;
@@ -120,6 +116,11 @@ impl Study {
     #[must_use]
     pub fn holds(&self, path: &Path) -> bool {
         path.canonicalize().is_ok_and(|path| path.starts_with(&self.dir))
+    }
+
+    /// A path relative to the study, with `/` between its parts; as it is where it lies outside.
+    pub(crate) fn relative(&self, path: &Path) -> String {
+        path.strip_prefix(&self.dir).unwrap_or(path).to_string_lossy().replace('\\', "/")
     }
 
     /// The camera of the pictures of a session that people marked: the session's own, else the study's, else `camera`,

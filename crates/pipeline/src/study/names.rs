@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 use super::csv_file::read_rows;
 use super::{Object, SessionDir, StudyError};
 
+/// Rater of the rims that the program finds itself.
+pub(crate) const AUTO: &str = "auto";
 /// Its name in a study.
 pub(crate) const NAMES_FILE: &str = "names.csv";
 /// What the names of containers that were found begin with; a number follows.

@@ -57,6 +57,11 @@ pub(crate) fn marks_in(dir: &Path) -> std::io::Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
+/// The name of a file without its folders and its extension: marks and their image have the same.
+pub(crate) fn stem_of(file: &str) -> String {
+    Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
 /// Sessions in the order of their names.
 pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
     let mut sessions: BTreeMap<String, SessionDir> = BTreeMap::new();

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{MarksSource, UncertaintySpec};
 use rims::{LEAST_DIAMETER_MM, RimShape};
+use crate::signals::{GravityCalibrate, PoseSettings, RangeCone, ReadingSettings};
 
 /// The version of study.toml that this program reads.
 pub(crate) const STUDY_SCHEMA_VERSION: u32 = 1;
@@ -129,42 +130,59 @@ pub struct SignalsSpec {
     pub gravity_calibration: GravityCalibrate,
 }
 
-/// What the range sensor's reading is taken for.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RangeCone {
-    /// The distance along the axis.
-    #[default]
-    Off,
-    /// The mean over a cone of 25 degrees that meets the tilted table (docs/signals.md).
-    TiltedPlane,
-}
-
-/// What to do with a gravity calibration from still segments (docs/signals.md).
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum GravityCalibrate {
-    /// Nothing.
-    Off,
-    /// Work it out and log it; change nothing.
-    #[default]
-    Report,
-    /// Use it where it is accepted; a note says whether it was.
-    Apply,
-}
-
 impl Default for SignalsSpec {
     fn default() -> Self {
+        let (reading, pose) = (ReadingSettings::default(), PoseSettings::with_mount(0.0));
         Self {
-            gravity_cutoff_hz: 0.25,
-            gravity_tolerance_mg: 150.0, // a glasses IMU with |a| = 1.04 g is usable, a wrong scale is not
-            stillness_max_mg: 50.0,
-            range_window_s: 1.0,
-            range_min_mm: 30.0,
-            range_max_mm: 2000.0, // VL53L0X data sheet: up to 2 m
-            range_update_s: 0.02, // VL53L0X data sheet: 20 ms at its fastest; a slower sensor shows it
-            range_cone: RangeCone::default(),
-            gravity_calibration: GravityCalibrate::default(),
+            gravity_cutoff_hz: reading.gravity_cutoff_hz,
+            gravity_tolerance_mg: pose.gravity_tolerance_mg,
+            stillness_max_mg: pose.stillness_max_mg,
+            range_window_s: reading.range_window_s,
+            range_min_mm: reading.range_min_mm,
+            range_max_mm: reading.range_max_mm,
+            range_update_s: reading.range_update_s,
+            range_cone: pose.range_cone,
+            gravity_calibration: reading.gravity_calibration,
+        }
+    }
+}
+
+impl SignalsSpec {
+    /// The settings that readings are made by.
+    #[must_use]
+    pub fn reading_settings(&self) -> ReadingSettings {
+        // Without `..`: a new key is either read by, and then in the key of the signals stage, or judged by.
+        let Self {
+            gravity_cutoff_hz,
+            gravity_calibration,
+            range_window_s,
+            range_min_mm,
+            range_max_mm,
+            range_update_s,
+            gravity_tolerance_mg: _,
+            stillness_max_mg: _,
+            range_cone: _,
+        } = *self;
+        ReadingSettings {
+            gravity_cutoff_hz,
+            gravity_calibration,
+            range_window_s,
+            range_min_mm,
+            range_max_mm,
+            range_update_s,
+        }
+    }
+
+    /// The settings that readings are judged by, for a camera that looks further down than the sensor by `mount_pitch_rad`.
+    #[must_use]
+    pub fn pose_settings(&self, select: &SelectSpec, mount_pitch_rad: f64) -> PoseSettings {
+        PoseSettings {
+            gravity_tolerance_mg: self.gravity_tolerance_mg,
+            stillness_max_mg: self.stillness_max_mg,
+            range_cone: self.range_cone,
+            target_pitch_deg: select.target_pitch_deg,
+            pitch_tolerance_deg: select.pitch_tolerance_deg,
+            mount_pitch_rad,
         }
     }
 }
@@ -183,7 +201,8 @@ pub struct SelectSpec {
 
 impl Default for SelectSpec {
     fn default() -> Self {
-        Self { target_pitch_deg: 55.0, pitch_tolerance_deg: 7.5, best_images: None }
+        let PoseSettings { target_pitch_deg, pitch_tolerance_deg, .. } = PoseSettings::with_mount(0.0);
+        Self { target_pitch_deg, pitch_tolerance_deg, best_images: None }
     }
 }
 

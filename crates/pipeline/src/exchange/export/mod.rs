@@ -13,8 +13,7 @@ use super::foreign::Refused;
 use super::label::What;
 use super::pictures::Pictures;
 use crate::labelme;
-use crate::session::stem_of;
-use crate::study::{Study, marks_in};
+use crate::study::{Study, marks_in, stem_of};
 use crate::write_marks::write_whole;
 
 /// A format of another tool.

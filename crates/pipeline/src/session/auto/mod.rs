@@ -14,20 +14,17 @@ use model::{
 };
 use nalgebra::Point2;
 
-use super::measurement::inputs_of;
-use super::recording::bad_mcap;
-use super::{Frame, Prepared, Recording, stem_of};
-use crate::calibrate::corrected_view;
+use super::frames::{Frame, frames, inputs_of};
+use super::prepared::Prepared;
+use super::recording::{Recording, bad_mcap};
+use crate::calibration::corrected_view;
 use crate::labelme::{self, AutoRim};
 use rims::{self, Found, Rim, find_rims_of};
 use crate::stop::Stop;
-use crate::study::{SessionDir, Study, marks_in, number_of_found};
+use crate::study::{AUTO, SessionDir, Study, marks_in, number_of_found, stem_of};
 use looks::Looks;
-use named::named;
+use named::{Seen, named};
 use track::Sighting;
-
-/// Rater of what the program found itself.
-pub(crate) const AUTO: &str = "auto";
 
 /// What a search gave.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -58,13 +55,6 @@ pub(crate) struct Search<'a> {
     pub stop: &'a Stop,
 }
 
-/// A rim with what it is linked by.
-struct Seen {
-    image: String,
-    rim: AutoRim,
-    sighting: Sighting,
-}
-
 impl Search<'_> {
     /// Looks for rims in the selected images, one picture at a time; in the order of time, so that nothing depends on who is
     /// at work beside it. Images for which rater `auto` has a file are left out where files are read.
@@ -79,7 +69,7 @@ impl Search<'_> {
         let refuse = |error| SearchError::Recording(Box::new(bad_mcap(&self.dir.name, &error)));
         let mut reader = SessionReader::open(self.mcap).map_err(refuse)?;
         let mut seen = Vec::new();
-        for (number, frame) in super::frames(self.study, self.prepared, recording).iter().enumerate() {
+        for (number, frame) in frames(self.study, self.prepared, recording).iter().enumerate() {
             if frame.signals.reason != FrameReason::Selected || checked.contains(&stem_of(&frame.image.file)) {
                 continue;
             }
@@ -141,7 +131,7 @@ impl Search<'_> {
 
     fn sighting(&self, number: usize, frame: &Frame, view: &View, rim: &Rim) -> Option<Sighting> {
         let camera_mm = view.pose().camera_height_mm();
-        let own = container_of(&rim.found());
+        let own = rim.found().container();
         let height_mm = rim.height_as(&own).mm;
         // As if its height were known: what its uncertainty does to the size is for all images of a container together.
         let container = Container { rim_height_mm: Some(height_mm), ..own };
@@ -192,11 +182,6 @@ const CORNERS: usize = 4;
 
 /// A decoded picture has three bytes per pixel; edges are found in a fourth.
 const BYTES_PER_PIXEL: u64 = 4;
-
-/// What is known of a container that is in no list: what it looks like.
-pub(super) fn container_of(found: &Found) -> Container {
-    Container { kind: found.kind, shape: found.shape, rim_height_mm: None, wall: None }
-}
 
 /// Where a point of the recorded picture is in the pictures that people mark, to a thousandth of a pixel: far below what an
 /// edge tells, and short in files.

@@ -2,12 +2,18 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Seen;
 use super::link::containers;
 use super::track::Sighting;
 use crate::labelme::AutoRim;
 use rims::{Found, as_judged};
 use crate::study::FOUND;
+
+/// A rim with what it is linked by.
+pub(super) struct Seen {
+    pub image: String,
+    pub rim: AutoRim,
+    pub sighting: Sighting,
+}
 
 /// The rims by image, named: one container, one name, what it is by all of its images. Numbers go from 1 in the order in which
 /// containers are first seen; `taken` are left out, and so are containers narrower than `least_diameter_mm`.

@@ -8,7 +8,8 @@ use model::{
 };
 
 use super::{Row, fused_row, with_sigma};
-use crate::session::measurement::{Marked, Measurement};
+use crate::session::marked::Marked;
+use crate::session::measurement::Measurement;
 use crate::session::row::error_pct;
 
 /// The rows of method joint: for every object and rater with height lines on two or more still images.

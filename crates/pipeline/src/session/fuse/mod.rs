@@ -9,7 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use model::{Doubt, ErrorStats, Fused, Level, Method, Quantity, ResultRow, Share, SizeSigma, fuse as fuse_shares};
 
 use super::found::fused_sigma;
-use super::measurement::{Marked, Measurement};
+use super::marked::Marked;
+use super::measurement::Measurement;
 use super::row::{doubt_codes, error_pct, with_sigma};
 use crate::study::Study;
 

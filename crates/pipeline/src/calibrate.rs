@@ -1,8 +1,4 @@
-//! `calibrate`: what a bench with known sizes tells of a device, and its use in a run.
-
-mod apply;
-mod entries;
-mod file;
+//! The command `calibrate`: learns from a bench with known sizes what a run then reads from calibration.toml.
 
 use std::cell::Cell;
 
@@ -11,30 +7,14 @@ use model::calibrate::physical::{self, BenchSize, Physical};
 use model::calibrate::protractor::protractor;
 use model::{InputSigma, Kind, LEARNED, Level, Method, Quantity, ResultRow, SessionStatus, Source, Stage};
 
+use crate::calibration::PhysicalEntry;
+use crate::calibration::{CalibrationFile, ProtractorEntry, empirical_entry, inputs_with, physical_entry};
+use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
-use crate::session::{SessionOutput, failed, run_session};
-use crate::sessions::unless_panicking;
-use crate::study::{RangeCone, Study, StudySpec};
+use crate::session::{SessionOptions, SessionOutput, failed, run_session};
+use crate::signals::RangeCone;
+use crate::study::{Study, StudySpec};
 use crate::survey::{Survey, SurveyError, SurveyOptions};
-
-use apply::inputs_with;
-pub(crate) use apply::{corrected_view, inputs_after, scaled_paper};
-pub use entries::{EmpiricalEntry, HeldOutEntry, PhysicalEntry, ProtractorEntry, RefusedEntry};
-use entries::{empirical_entry, physical_entry};
-pub use file::{CALIBRATION_SCHEMA_VERSION, CalibrationFile, CalibrationFileError};
-
-/// What one session of a bench tells.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct BenchSession {
-    /// Whether session.toml declares a setup: such sessions are a bench, others a study that happens to have true sizes.
-    pub declared: bool,
-    /// Known sizes with the readings as they are.
-    pub sizes: Vec<BenchSize>,
-    /// The same with the range corrected for the sensor's cone, where it can be.
-    pub cone_sizes: Vec<BenchSize>,
-    /// Declared and measured pitch of each image, in degrees.
-    pub angles_deg: Vec<(f64, f64)>,
-}
 
 /// Settings of a study for its calibration: every method that calibrates or is calibrated, and both readings of the range.
 pub fn adjust(spec: &mut StudySpec) {
@@ -52,10 +32,10 @@ pub fn calibrate(
     options: &SurveyOptions,
     reporter: &dyn Reporter,
 ) -> Result<(CalibrationFile, Vec<SessionStatus>), SurveyError> {
-    let study = &Study { is_bench: true, ..study.clone() };
     let survey = Survey::new(options)?;
+    let session_options = SessionOptions { is_bench: true, ..survey.options.clone() };
     let outputs = survey.each(study, options.jobs, reporter, |dir| {
-        let road = || run_session(study, dir, &survey.options, reporter);
+        let road = || run_session(study, dir, &session_options, reporter);
         let output = unless_panicking(dir, &Cell::new(Stage::Study), road);
         let output = output.unwrap_or_else(|problem| failed(study, dir, problem));
         reporter.done(&output.status);

@@ -24,7 +24,7 @@ pub(crate) fn inputs_after(calibration: Option<&CalibrationFile>, inputs: InputS
     }
 }
 
-pub(super) fn inputs_with(physical: &PhysicalEntry, inputs: InputSigma) -> InputSigma {
+pub(crate) fn inputs_with(physical: &PhysicalEntry, inputs: InputSigma) -> InputSigma {
     // The mount's correction holds the accelerometer's pitch; where it was not learned, nor was that.
     let learned_pitch = physical.determined.contains(&Source::Mount);
     let mut covariance = physical.covariance();

@@ -8,7 +8,7 @@ use model::{InputSigma, Kind, LEARNED, Source};
 use nalgebra::Matrix4;
 use serde::{Deserialize, Serialize};
 
-use crate::study::RangeCone;
+use crate::signals::RangeCone;
 
 /// Errors of what was left out of a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -110,7 +110,7 @@ impl PhysicalEntry {
     }
 }
 
-pub(super) fn physical_entry(fitted: &Physical, range_cone: RangeCone, prior: &InputSigma) -> PhysicalEntry {
+pub(crate) fn physical_entry(fitted: &Physical, range_cone: RangeCone, prior: &InputSigma) -> PhysicalEntry {
     let [mount, scale, offset, focal] = fitted.correction.values();
     let sd = |i: usize| fitted.covariance[(i, i)].sqrt();
     let refused = |(i, source): (usize, &Source)| RefusedEntry {
@@ -171,7 +171,7 @@ pub struct EmpiricalEntry {
     pub mended_without_setup: Option<HeldOutEntry>,
 }
 
-pub(super) fn empirical_entry(
+pub(crate) fn empirical_entry(
     kind: Kind,
     height: bool,
     rows: &[Row],

@@ -53,7 +53,7 @@ pub enum CalibrationFileError {
 }
 
 impl CalibrationFile {
-    pub(super) fn empty(program: &str, study: &str) -> Self {
+    pub(crate) fn empty(program: &str, study: &str) -> Self {
         Self {
             schema_version: CALIBRATION_SCHEMA_VERSION,
             program: program.to_owned(),

@@ -1,0 +1,66 @@
+//! The objects that are marked on images with a pose: what sizes are measured of.
+
+use model::{InputSigma, Method, ObjectMarks, Problem, Severity, Stage, View};
+
+use super::frames::{Frame, Session, inputs_of};
+use super::marks::{MarkedObject, SessionMarks};
+use crate::calibration::corrected_view;
+use rims::Found;
+use crate::study::Object;
+
+/// One object as one rater marked it on one frame.
+pub(super) struct Marked<'a> {
+    pub session: &'a Session<'a>,
+    /// Number of the frame in its session.
+    pub number: usize,
+    pub frame: &'a Frame,
+    pub rater: &'a str,
+    pub object: &'a Object,
+    pub marks: &'a ObjectMarks,
+    /// What is known of a rim that the program found.
+    pub found: Option<Found>,
+    /// Uncertainties of this image.
+    pub inputs: InputSigma,
+}
+
+impl Marked<'_> {
+    /// The view that a method works with; none without a pose.
+    pub(super) fn view(&self, method: Method) -> Option<View> {
+        let view = View::new(self.session.marks_camera, self.frame.signals.pose_for(method)?);
+        corrected_view(self.session.study.calibration.as_ref(), method, view)
+    }
+}
+
+/// Everything that is marked on frames with a pose.
+pub(super) fn marked<'a>(
+    session: &'a Session<'a>,
+    marks: &'a SessionMarks,
+    problems: &mut Vec<Problem>,
+) -> Vec<Marked<'a>> {
+    let mut found = Vec::new();
+    for (number, frame) in session.frames.iter().enumerate() {
+        for (rater, objects) in marks.of_image(&frame.image.file) {
+            if frame.signals.pose.is_none() {
+                problems.push(unusable(session, frame, rater));
+                continue;
+            }
+            let inputs = inputs_of(session.study, frame);
+            found.extend(objects.iter().map(|MarkedObject { marks, object, found }| {
+                let found = *found;
+                Marked { session, number, frame, rater, object, marks, found, inputs }
+            }));
+        }
+    }
+    found
+}
+
+fn unusable(session: &Session<'_>, frame: &Frame, rater: &str) -> Problem {
+    Problem {
+        severity: Severity::Loss,
+        stage: Stage::Signals,
+        code: "marked_image_without_pose".to_owned(),
+        place: session.place_of(&frame.image.file),
+        fact: format!("marked by {rater}, but {}", frame.signals.reason.meaning()),
+        remedy: "mark another image of the same object, or see frames.parquet for the numbers behind it".to_owned(),
+    }
+}
