@@ -85,7 +85,7 @@ fn keys(study: &Study) -> [String; 4] {
     let context = RunContext::new(study, "program").unwrap();
     let prepared = Prepared::new(study, dir, "program").unwrap();
     // The contents of a card do not change here, so the rest of the key of ingest stands for all of it.
-    let ingest = context.look.fingerprint(&prepared.source).unwrap().hex();
+    let ingest = context.fingerprinter.fingerprint(&prepared.source).unwrap().hex();
     let signals = signals_key(study, "program", &ingest).unwrap();
     let parts = MeasureParts::new(study, dir, &prepared, "program", &signals, "objects");
     let (search, measure) = (parts.search_key(dir).unwrap().unwrap(), parts.key(dir).unwrap());
