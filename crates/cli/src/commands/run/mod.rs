@@ -127,7 +127,7 @@ fn print_annotated(annotated: &Annotated, format: LogFormat) {
 
 /// Who writes the same files, if it is a run in the same work folder.
 fn named(error: SinkError, work_dir: &Path) -> Failure {
-    match (&error, Holder::of(work_dir)) {
+    match (&error, Holder::current(work_dir)) {
         (SinkError::File(FileError::Busy { .. }), Some(Holder(holder))) => {
             Failure::Failed(anyhow!(error).context(format!("another run is at work on this output: {holder}")))
         }

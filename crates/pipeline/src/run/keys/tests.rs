@@ -7,7 +7,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::{MeasureParts, signals_key};
-use crate::run::plan::Common;
+use crate::run::plan::RunContext;
 use crate::session::Prepared;
 use crate::study::{MarksSource, Study, StudySpec};
 
@@ -82,10 +82,10 @@ fn bench(adjust: impl FnOnce(&mut StudySpec)) -> Study {
 /// What is compared for the card, and the keys of signals, search and measuring, of the first session.
 fn keys(study: &Study) -> [String; 4] {
     let dir = &study.sessions[0];
-    let context = Common::new(study, "program").unwrap();
+    let context = RunContext::new(study, "program").unwrap();
     let prepared = Prepared::new(study, dir, "program").unwrap();
     // The contents of a card do not change here, so the rest of the key of ingest stands for all of it.
-    let ingest = context.look.fingerprint(&prepared.source).unwrap().hex();
+    let ingest = context.fingerprinter.fingerprint(&prepared.source).unwrap().hex();
     let signals = signals_key(study, "program", &ingest).unwrap();
     let parts = MeasureParts::new(study, dir, &prepared, "program", &signals, "objects");
     let (search, measure) = (parts.search_key(dir).unwrap().unwrap(), parts.key(dir).unwrap());
