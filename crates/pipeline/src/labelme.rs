@@ -9,7 +9,6 @@ use model::{Feature, Mark, ObjectMarks, Quantity};
 use nalgebra::Point2;
 use serde::Deserialize;
 
-pub(crate) use error::MARKS_UNREADABLE;
 pub use error::MarksError;
 use rims::Found;
 pub(crate) use write::{AutoRim, Shape as OutShape, text_of, text_of_shapes};
@@ -224,7 +223,7 @@ mod tests {
     fn marks_of_another_picture_are_refused() {
         let text = br#"{"shapes": [], "imageWidth": 640, "imageHeight": 480}"#;
         let error = parse(text, Path::new("m.json"), [2592, 1944]).unwrap_err();
-        assert_eq!(error.code(), "marks_of_other_picture");
+        assert_eq!(error.code().code(), "marks_of_other_picture");
         assert!(error.to_string().contains("640 x 480") && error.to_string().contains("2592 x 1944"));
         assert!(parse(br#"{"shapes": []}"#, Path::new("m.json"), [2592, 1944]).is_ok(), "the size may be left out");
     }

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use model::{Problem, Severity, Stage};
+use model::{Problem, ProblemCode, Severity, Stage};
 use rayon::prelude::*;
 
 use crate::study::SessionDir;
@@ -48,7 +48,7 @@ fn internal_error(dir: &SessionDir, stage: Stage, panic: &(dyn Any + Send)) -> P
     Problem {
         severity: Severity::Loss,
         stage,
-        code: "internal_error".to_owned(),
+        code: ProblemCode::InternalError,
         place: format!("cards/{}", dir.name),
         fact: format!("the program failed on this session: {}", said.unwrap_or("no message")),
         remedy: "report it with this message; the other sessions are not affected".to_owned(),

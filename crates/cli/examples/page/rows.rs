@@ -89,7 +89,7 @@ fn status(name: &str, place: usize, results: &[ResultRow], frames: &[FrameRow]) 
     let problem = |severity: Severity| Problem {
         severity,
         stage: Stage::Ingest,
-        code: "packet_damaged".to_owned(),
+        code: model::ProblemCode::BadBlocks,
         place: format!("cards/{name}/SENSORS/ACC.BIN"),
         fact: "expected 1022 samples <in> a packet, got 511".to_owned(),
         remedy: "copy the card again & run again".to_owned(),

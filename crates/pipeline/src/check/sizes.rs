@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use model::{Kind, Level, Method, Problem, Quantity, ResultRow, Selection, Severity, Stage, TableLayout, TableSpec};
+use model::{
+    Kind, Level, Method, Problem, ProblemCode, Quantity, ResultRow, Selection, Severity, Stage, TableLayout, TableSpec,
+};
 
 use crate::study::Study;
 
@@ -55,7 +57,7 @@ pub(super) fn problems(study: &Study, measured: &BTreeSet<Measured>) -> Vec<Prob
 
 fn never_measured(object: &str) -> Problem {
     note(
-        "object_never_measured",
+        ProblemCode::ObjectNeverMeasured,
         "objects.csv",
         format!("'{object}' has no mark in the study from which a size could be measured"),
         "mark it in at least one picture with a pose, or take it out of objects.csv",
@@ -65,7 +67,7 @@ fn never_measured(object: &str) -> Problem {
 fn empty_table(table: &TableSpec) -> Problem {
     let list = |names: Vec<&str>| if names.is_empty() { "any".to_owned() } else { names.join(", ") };
     note(
-        "table_stays_empty",
+        ProblemCode::TableStaysEmpty,
         "study.toml",
         format!(
             "no size fits table '{}': kinds {}; objects {}; quantities {}; method {}; selection {}",
@@ -80,11 +82,11 @@ fn empty_table(table: &TableSpec) -> Problem {
     )
 }
 
-fn note(code: &str, place: &str, fact: String, remedy: &str) -> Problem {
+fn note(code: ProblemCode, place: &str, fact: String, remedy: &str) -> Problem {
     Problem {
         severity: Severity::Note,
         stage: Stage::Study,
-        code: code.to_owned(),
+        code,
         place: place.to_owned(),
         fact,
         remedy: remedy.to_owned(),

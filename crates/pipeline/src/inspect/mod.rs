@@ -15,7 +15,7 @@ use std::cell::Cell;
 use std::path::Path;
 
 use ingest::{ReadError, SessionReader};
-use model::{Problem, SessionStatus, Severity, Stage};
+use model::{Problem, ProblemCode, SessionStatus, Severity, Stage};
 
 use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
@@ -96,7 +96,7 @@ fn unreadable(dir: &SessionDir, error: &ReadError) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Signals,
-        code: "bad_mcap".to_owned(),
+        code: ProblemCode::BadMcap,
         place: format!("mcap/{}.mcap", dir.name),
         fact: error.to_string(),
         remedy: "check free space and permissions of the temporary folder (TMPDIR)".to_owned(),

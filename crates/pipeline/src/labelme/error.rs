@@ -1,5 +1,6 @@
 //! What is wrong with a file of marks.
 
+use model::ProblemCode;
 use std::io;
 use std::path::PathBuf;
 
@@ -64,16 +65,13 @@ pub enum MarksError {
 impl MarksError {
     /// Stable code, for the status of a session.
     #[must_use]
-    pub fn code(&self) -> &'static str {
+    pub fn code(&self) -> ProblemCode {
         match self {
-            Self::Unreadable { .. } => MARKS_UNREADABLE,
-            Self::TooLarge { .. } => "marks_too_large",
-            Self::Malformed { .. } => "marks_malformed",
-            Self::OtherPicture { .. } => "marks_of_other_picture",
-            Self::Shape { .. } => "bad_mark",
+            Self::Unreadable { .. } => ProblemCode::MarksUnreadable,
+            Self::TooLarge { .. } => ProblemCode::MarksTooLarge,
+            Self::Malformed { .. } => ProblemCode::MarksMalformed,
+            Self::OtherPicture { .. } => ProblemCode::MarksOfOtherPicture,
+            Self::Shape { .. } => ProblemCode::BadMark,
         }
     }
 }
-
-/// The system does not let marks be read.
-pub(crate) const MARKS_UNREADABLE: &str = "marks_unreadable";

@@ -5,17 +5,16 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use ingest::{ByteBudget, IngestError, Ingested, SessionSource};
-use model::{Problem, SessionLog, SessionStatus, Severity, Stage};
+use model::{Problem, ProblemCode, SessionLog, SessionStatus, Severity, Stage};
 
 use super::plan::{RunContext, SessionPlan, recording_fingerprint};
 use super::{Halted, keys};
 use crate::inputs::sha256_of_bytes;
-use crate::labelme::MARKS_UNREADABLE;
 use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
 use crate::session::{
-    BAD_MCAP, CardProgress, Measuring, Prepared, Recording, SearchError, Searched, failed, finish_status,
-    ingest_problem, read_recording,
+    CardProgress, Measuring, Prepared, Recording, SearchError, Searched, failed, finish_status, ingest_problem,
+    read_recording,
 };
 use crate::stop::Stop;
 use crate::work::{KeptStage, StageOutput, WorkError, WorkFolder};
@@ -225,7 +224,7 @@ impl Worker<'_> {
         let start = Instant::now();
         let read = || read_recording(self.context.study, &self.mcap(plan), session);
         let recording = match read() {
-            Err(problem) if problem.code == BAD_MCAP => {
+            Err(problem) if problem.code == ProblemCode::BadMcap => {
                 self.ingest_again(plan, prepared, &problem)?;
                 read()?
             }
@@ -274,7 +273,7 @@ impl Worker<'_> {
 
 /// Marks that the system refused once may be there the next time, with nothing to tell them from those of before.
 fn has_unread_marks(status: &SessionStatus) -> bool {
-    status.problems.iter().any(|problem| problem.code == MARKS_UNREADABLE)
+    status.problems.iter().any(|problem| problem.code == ProblemCode::MarksUnreadable)
 }
 
 fn ingest_interruption(session: &str, error: IngestError) -> Interruption {
@@ -289,7 +288,7 @@ fn changed_while_read(session: &str) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Ingest,
-        code: "card_changed".to_owned(),
+        code: ProblemCode::CardChanged,
         place: format!("cards/{session}"),
         fact: "the card's files changed while they were read; what was read may be a mixture".to_owned(),
         remedy: "wait until the card is copied whole, and run again; the session is then read anew".to_owned(),

@@ -1,7 +1,7 @@
 //! The lag between a session's images and its sensors, when it is asked for.
 
 use ingest::{ImageEntry, ReadError, SessionReader, Thumbnail};
-use model::{Problem, Severity, Stage};
+use model::{Problem, ProblemCode, Severity, Stage};
 
 use crate::signals::lag::{self, LagEstimate, LagVerdict, PairMotion};
 
@@ -55,12 +55,12 @@ pub(super) fn note(session: &str, estimate: &LagEstimate, declared_s: f64) -> Pr
     let facts = facts(estimate);
     let (code, fact, remedy) = match estimate.verdict {
         LagVerdict::Told => (
-            "image_lag_estimated",
+            ProblemCode::ImageLagEstimated,
             format!("{facts}; declared and used: {declared_s:.1} s"),
             "if it differs from the declared one and is alike in other sessions, set [time] image_lag_s to it",
         ),
         _ => (
-            "image_lag_unknown",
+            ProblemCode::ImageLagUnknown,
             format!("the lag between images and sensors cannot be told: {}{facts}", why(estimate.verdict)),
             "nothing was changed; a session with more motion, or a nod in front of the camera, tells more",
         ),
@@ -68,7 +68,7 @@ pub(super) fn note(session: &str, estimate: &LagEstimate, declared_s: f64) -> Pr
     Problem {
         severity: Severity::Note,
         stage: Stage::Signals,
-        code: code.to_owned(),
+        code,
         place: format!("cards/{session}"),
         fact,
         remedy: remedy.to_owned(),
@@ -130,13 +130,13 @@ mod tests {
             pairs: 250,
         };
         let problem = note("P01", &estimated, 0.0);
-        assert_eq!((problem.code.as_str(), problem.severity), ("image_lag_estimated", Severity::Note));
+        assert_eq!((problem.code, problem.severity), (ProblemCode::ImageLagEstimated, Severity::Note));
         assert!(
             problem.fact.contains("-1.52 +- 0.35 s") && problem.fact.contains("declared and used: 0.0 s"),
             "{}",
             problem.fact
         );
         let unknown = note("P01", &LagEstimate { verdict: LagVerdict::NotSharp, ..estimated }, 0.0);
-        assert_eq!(unknown.code, "image_lag_unknown");
+        assert_eq!(unknown.code, ProblemCode::ImageLagUnknown);
     }
 }

@@ -1,6 +1,6 @@
 //! The objects that are marked on images with a pose: what sizes are measured of.
 
-use model::{InputSigma, Method, ObjectMarks, Problem, Severity, Stage, View};
+use model::{InputSigma, Method, ObjectMarks, Problem, ProblemCode, Severity, Stage, View};
 
 use super::frames::{Frame, Session, inputs_of};
 use super::session_marks::{MarkedObject, SessionMarks};
@@ -58,7 +58,7 @@ fn unusable(session: &Session<'_>, frame: &Frame, rater: &str) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Signals,
-        code: "marked_image_without_pose".to_owned(),
+        code: ProblemCode::MarkedImageWithoutPose,
         place: session.place_of(&frame.image.file),
         fact: format!("marked by {rater}, but {}", frame.signals.reason.meaning()),
         remedy: "mark another image of the same object, or see frames.parquet for the numbers behind it".to_owned(),

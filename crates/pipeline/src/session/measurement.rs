@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use model::{
-    Doubt, Estimate, InputSigma, MeasureError, Method, Problem, Quantity, ResultRow, Severity, Stage, View, best_of,
+    Doubt, Estimate, InputSigma, MeasureError, Method, Problem, ProblemCode, Quantity, ResultRow, Severity, Stage,
+    View, best_of,
 };
 
 use super::found;
@@ -129,7 +130,7 @@ fn report_unmeasured(
     for (_, quantity, size) in sizes {
         if let Err(error) = size
             && !(*error == MeasureError::NoHeight && measured.contains(quantity))
-            && reported.insert((*quantity, error.code()))
+            && reported.insert((*quantity, error.problem_code()))
         {
             problems.push(unmeasured(marked, *quantity, error));
         }
@@ -144,7 +145,7 @@ fn unmeasured(marked: &Marked<'_>, quantity: Quantity, error: &MeasureError) -> 
     Problem {
         severity: Severity::Loss,
         stage: Stage::Measure,
-        code: error.code().to_owned(),
+        code: error.problem_code(),
         place: marked.session.place_of(&marked.frame.image.file),
         fact: format!("{quantity} of '{}' marked by {}: {error}", marked.marks.object, marked.rater),
         remedy: "correct the marks in LabelMe and run again".to_owned(),
@@ -156,7 +157,7 @@ fn nothing(marked: &Marked<'_>) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Measure,
-        code: "nothing_to_measure".to_owned(),
+        code: ProblemCode::NothingToMeasure,
         place: marked.session.place_of(&marked.frame.image.file),
         fact: format!("the marks of '{}' by {} give no size of a {shape}", marked.marks.object, marked.rater),
         remedy: "mark a diameter, width, length, height or the rim (docs/study.md)".to_owned(),

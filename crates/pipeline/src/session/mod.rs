@@ -28,7 +28,7 @@ pub(crate) use card_progress::CardProgress;
 pub(crate) use output::{Searched, SessionOutput};
 pub(crate) use prepared::Prepared;
 pub(crate) use problems::without_host;
-pub(crate) use recording::{BAD_MCAP, Recording, read as read_recording};
+pub(crate) use recording::{Recording, read as read_recording};
 pub(crate) use road::{
     Measuring, SessionOptions, failed, finish_status, ingest_problem, ingest_without_state, log_problems, run_session,
 };

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use model::{ObjectMarks, Problem, Severity, Stage};
+use model::{ObjectMarks, Problem, ProblemCode, Severity, Stage};
 
 use crate::study::{NAMES_FILE, Named, SessionDir, Study, number_of_found};
 use rims::Found;
@@ -61,7 +61,7 @@ fn surety((was, marks, found): &(String, ObjectMarks, Option<Found>)) -> (bool, 
 
 fn twice(kept: &str, left: &str, object: &str, place: &str) -> Problem {
     problem(
-        "named_twice",
+        ProblemCode::NamedTwice,
         place.to_owned(),
         format!("'{kept}' and '{left}' are both '{object}' and both in this image; '{left}' is left out"),
         "take the wrong one out of names.csv, or name it as another object",
@@ -70,15 +70,15 @@ fn twice(kept: &str, left: &str, object: &str, place: &str) -> Problem {
 
 fn not_found(found: &str, Named { object, line }: &Named, session: &str) -> Problem {
     problem(
-        "name_not_found",
+        ProblemCode::NameNotFound,
         format!("{NAMES_FILE} line {line}"),
         format!("nothing in session '{session}' is named '{found}', so '{object}' has no size from it"),
         "look up the names in the results, which change with the settings, or take the line out",
     )
 }
 
-fn problem(code: &str, place: String, fact: String, remedy: &str) -> Problem {
-    let (code, remedy) = (code.to_owned(), remedy.to_owned());
+fn problem(code: ProblemCode, place: String, fact: String, remedy: &str) -> Problem {
+    let remedy = remedy.to_owned();
     Problem { severity: Severity::Loss, stage: Stage::Marks, code, place, fact, remedy }
 }
 
@@ -130,7 +130,7 @@ mod tests {
         let (marks, problems) = named(&mut naming(), vec![rim("auto-1", Some(0.6)), rim("auto-3", Some(0.9))]);
         assert_eq!(marks, [("dinner plate".to_owned(), Some(0.9))]);
         assert!(
-            matches!(problems.as_slice(), [one] if one.code == "named_twice" && one.fact.contains("'auto-1' is left out"))
+            matches!(problems.as_slice(), [one] if one.code.code() == "named_twice" && one.fact.contains("'auto-1' is left out"))
         );
         let by_hand = vec![rim("auto-1", Some(0.99)), rim("dinner plate", Some(0.5)), rim("auto-3", None)];
         let (marks, problems) = named(&mut naming(), by_hand);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use ingest::SessionSource;
-use model::{Camera, CameraSpec, Problem, Severity, Stage};
+use model::{Camera, CameraSpec, Problem, ProblemCode, Severity, Stage};
 
 use super::problems::{MARKS_CAMERA_FACT, bad_camera, card_out_of_reach, link_out_of_study, missing_card};
 use crate::inputs::sha256_of_file;
@@ -66,7 +66,7 @@ fn session_spec(study: &Study, card: &Path) -> Result<(SessionSpec, Option<(Stri
     let refuse = |fact: String| Problem {
         severity: Severity::Loss,
         stage: Stage::Study,
-        code: "bad_session_toml".to_owned(),
+        code: ProblemCode::BadSessionToml,
         place: place.clone(),
         fact,
         remedy: "correct the file (docs/study.md)".to_owned(),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use model::{Problem, Severity, Stage};
+use model::{Problem, ProblemCode, Severity, Stage};
 
 use crate::study::{SessionDir, Study};
 
@@ -23,7 +23,7 @@ pub(super) fn bad_camera(dir: &SessionDir, fact: String) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Study,
-        code: "bad_camera".to_owned(),
+        code: ProblemCode::BadCamera,
         place: format!("cards/{}/session.toml", dir.name),
         fact,
         remedy: "name built-in cameras or ones in devices/ (docs/study.md)".to_owned(),
@@ -34,7 +34,7 @@ pub(super) fn link_out_of_study(dir: &SessionDir) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Ingest,
-        code: "link_out_of_study".to_owned(),
+        code: ProblemCode::LinkOutOfStudy,
         place: format!("cards/{}", dir.name),
         fact: LINK_FACT.to_owned(),
         remedy: "copy the card into the study, or put the whole study where the cards are".to_owned(),
@@ -46,7 +46,7 @@ pub(super) fn card_out_of_reach(dir: &SessionDir, error: &std::io::Error) -> Pro
     Problem {
         severity: Severity::Loss,
         stage: Stage::Ingest,
-        code: "missing_card".to_owned(),
+        code: ProblemCode::MissingCard,
         place: format!("cards/{}", dir.name),
         fact: format!("the card's folder cannot be reached: {error}"),
         remedy: "if it is a link, connect the disk that it leads to, or correct it; check permissions".to_owned(),
@@ -58,7 +58,7 @@ pub(super) fn missing_card(dir: &SessionDir) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Ingest,
-        code: "missing_card".to_owned(),
+        code: ProblemCode::MissingCard,
         place: format!("cards/{}", dir.name),
         fact: format!("there are marks by {}, but no card", raters.join(", ")),
         remedy: "copy the SD card there, or remove the marks of this session".to_owned(),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use ingest::{DroppedImage, ImageEntry, SessionReader};
-use model::{Problem, Severity, Stage};
+use model::{Problem, ProblemCode, Severity, Stage};
 use serde::{Deserialize, Serialize};
 
 use super::lag;
@@ -61,14 +61,11 @@ pub(crate) fn read(study: &Study, mcap: &Path, name: &str) -> Result<Recording, 
     })
 }
 
-/// The MCAP file in the work folder is not what was written there.
-pub(crate) const BAD_MCAP: &str = "bad_mcap";
-
 pub(super) fn bad_mcap(session: &str, error: &ingest::ReadError) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Signals,
-        code: BAD_MCAP.to_owned(),
+        code: ProblemCode::BadMcap,
         place: format!("mcap/{session}.mcap"),
         fact: error.to_string(),
         remedy: "run again with --force to ingest the card anew".to_owned(),
@@ -84,17 +81,17 @@ fn calibration_note(study: &Study, name: &str, calibration: &GravityCalibration)
     }
     let (code, fact, remedy) = if calibration.accepted().is_some() {
         let remedy = "none needed; gravity_calibration = \"report\" leaves samples as they are";
-        ("gravity_calibration_applied", calibration.to_string(), remedy)
+        (ProblemCode::GravityCalibrationApplied, calibration.to_string(), remedy)
     } else {
         let fact = format!("{verdict}: {calibration}; {}", calibration.verdict.expected());
         let remedy = "samples were used as recorded; before or after wearing, lay the device still for 20 s on each side \
                       and at slants between (docs/signals.md)";
-        ("gravity_calibration_refused", fact, remedy)
+        (ProblemCode::GravityCalibrationRefused, fact, remedy)
     };
     Some(Problem {
         severity: Severity::Note,
         stage: Stage::Signals,
-        code: code.to_owned(),
+        code,
         place: format!("cards/{name}"),
         fact,
         remedy: remedy.to_owned(),

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use ingest::IngestError;
-use model::{FrameReason, Problem, ResultRow, SessionStatus, Severity, Stage};
+use model::{FrameReason, Problem, ProblemCode, ResultRow, SessionStatus, Severity, Stage};
 
 use super::auto::AutoMarks;
 use super::bench::bench_session;
@@ -106,8 +106,8 @@ pub(crate) fn log_problems(status: &SessionStatus) {
     let session = &status.session;
     for Problem { severity, stage, code, place, fact, remedy } in &status.problems {
         match severity {
-            Severity::Loss => tracing::warn!(session, %stage, code, place, remedy, "{fact}"),
-            Severity::Note => tracing::info!(session, %stage, code, place, remedy, "{fact}"),
+            Severity::Loss => tracing::warn!(session, %stage, code = code.code(), place, remedy, "{fact}"),
+            Severity::Note => tracing::info!(session, %stage, code = code.code(), place, remedy, "{fact}"),
         }
     }
 }
@@ -182,7 +182,7 @@ pub(crate) fn ingest_problem(session: &str, error: &IngestError) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Ingest,
-        code: error.code().to_owned(),
+        code: error.code(),
         place: format!("cards/{session}"),
         fact: error.to_string(),
         remedy: error.remedy().to_owned(),
@@ -195,7 +195,7 @@ fn no_pose(session: &Session<'_>) -> Option<Problem> {
     session.frames.iter().all(|frame| frame.signals.pose.is_none()).then(|| Problem {
         severity: Severity::Loss,
         stage: Stage::Signals,
-        code: "no_image_with_pose".to_owned(),
+        code: ProblemCode::NoImageWithPose,
         place: format!("cards/{}", session.dir.name),
         fact: format!("none of its {} images has a pose; of the first: {}", session.frames.len(), reason.meaning()),
         remedy: "check the sensors' files, and axes, scales and mount offset of the device profile".to_owned(),

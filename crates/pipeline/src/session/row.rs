@@ -80,7 +80,7 @@ fn flags(marked: &Marked<'_>, error: Option<&MeasureError>) -> String {
     flags.extend((!marked.marks.inside_picture(picture_px)).then_some("mark_outside_picture"));
     let is_common = height_source(marked) == Some(HeightSource::Common);
     flags.extend(is_common.then_some("rim_height_common"));
-    flags.extend(error.map(MeasureError::code));
+    flags.extend(error.map(|error| error.problem_code().code()));
     flags.join(",")
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use model::{FrameReason, ObjectMarks, Problem, Severity, Stage};
+use model::{FrameReason, ObjectMarks, Problem, ProblemCode, Severity, Stage};
 
 use super::frames::Session;
 use super::naming::Naming;
@@ -131,13 +131,13 @@ impl SessionMarks {
 
 fn twice(place: String) -> Problem {
     let fact = "a second file of this rater for the same image; it takes the place of the first".to_owned();
-    problem("marks_twice", place, fact, "keep one of them")
+    problem(ProblemCode::MarksTwice, place, fact, "keep one of them")
 }
 
 fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> Vec<PathBuf> {
     if !session.study.holds(dir) {
         let remedy = "copy the marks into the study";
-        problems.push(problem("link_out_of_study", session.study.relative(dir), LINK_FACT.to_owned(), remedy));
+        problems.push(problem(ProblemCode::LinkOutOfStudy, session.study.relative(dir), LINK_FACT.to_owned(), remedy));
         return Vec::new();
     }
     match marks_in(dir) {
@@ -145,7 +145,7 @@ fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> V
         Err(error) => {
             let fact = format!("cannot list the folder: {error}");
             problems.push(problem(
-                labelme::MARKS_UNREADABLE,
+                ProblemCode::MarksUnreadable,
                 session.study.relative(dir),
                 fact,
                 "check its permissions",
@@ -178,20 +178,20 @@ fn image_of<'a>(images: &ImagesByStem<'a>, stem: &str, place: &str) -> Result<&'
     let refuse = |code, fact, remedy| Err(problem(code, place.to_owned(), fact, remedy));
     match images.get(stem).map(Vec::as_slice) {
         None | Some([]) => refuse(
-            "marks_without_image",
+            ProblemCode::MarksWithoutImage,
             format!("the card has no image named {stem}"),
             "give the file the image's name, or remove it",
         ),
         Some([Image { file, dropped: None }]) => Ok(file),
         Some([Image { dropped: Some(reason), .. }]) => refuse(
-            "marked_image_dropped",
+            ProblemCode::MarkedImageDropped,
             format!("its image was dropped: {}", reason.meaning()),
             "see the problem of the image itself",
         ),
         Some(several) => {
             let files: Vec<_> = several.iter().map(|image| image.file).collect();
             refuse(
-                "ambiguous_marks",
+                ProblemCode::AmbiguousMarks,
                 format!("several images have this name: {}", files.join(", ")),
                 "rename all but one in the copy of the card, and its marks",
             )
@@ -216,18 +216,11 @@ fn known_objects(
         let names: Vec<_> = session.study.objects.keys().map(String::as_str).collect();
         let fact = format!("object '{}' is not in objects.csv, which has: {}", marks.object, names.join(", "));
         let remedy = "add it to objects.csv, or correct the label in LabelMe";
-        problems.push(problem("unknown_object", place.to_owned(), fact, remedy));
+        problems.push(problem(ProblemCode::UnknownObject, place.to_owned(), fact, remedy));
     }
     known
 }
 
-fn problem(code: &str, place: String, fact: String, remedy: &str) -> Problem {
-    Problem {
-        severity: Severity::Loss,
-        stage: Stage::Marks,
-        code: code.to_owned(),
-        place,
-        fact,
-        remedy: remedy.to_owned(),
-    }
+fn problem(code: ProblemCode, place: String, fact: String, remedy: &str) -> Problem {
+    Problem { severity: Severity::Loss, stage: Stage::Marks, code, place, fact, remedy: remedy.to_owned() }
 }

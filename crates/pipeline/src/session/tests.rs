@@ -35,7 +35,7 @@ fn run_with(adjust: impl FnOnce(&mut StudySpec)) -> SessionOutput {
 
 fn codes(output: &SessionOutput) -> Vec<&str> {
     assert!(output.status.problems.iter().all(|problem| problem.severity == Severity::Note));
-    output.status.problems.iter().map(|problem| problem.code.as_str()).collect()
+    output.status.problems.iter().map(|problem| problem.code.code()).collect()
 }
 
 #[test]

@@ -54,7 +54,7 @@ fn problems(metadata: &RunMetadata) -> Table {
     let columns = ["session", "cost", "stage", "code", "place", "fact", "remedy"].map(words).into();
     let row = |session: &str, problem: &Problem| {
         let Problem { severity, stage, code, place, fact, remedy } = problem;
-        [session, severity.code(), stage.code(), code, place, fact, remedy].map(Cell::text).into()
+        [session, severity.code(), stage.code(), code.code(), place, fact, remedy].map(Cell::text).into()
     };
     let rows = metadata.sessions.iter().flat_map(|status| status.problems.iter().map(|one| row(&status.session, one)));
     let mut table = table(

@@ -74,7 +74,7 @@ fn without_images(status: &SessionStatus) -> Session<'_> {
     if !status.failed {
         return Session { name, flow: Some(Flow::default()), note: None };
     }
-    let code = status.problems.last().map_or("failed", |problem| &problem.code);
+    let code = status.problems.last().map_or("failed", |problem| problem.code.code());
     let note = format!("nothing of this session could be used ({code})");
     Session { name, flow: None, note: Some(note) }
 }

@@ -1,5 +1,6 @@
 //! What happens to cards and marks, and what `aim-batch run` says of it (docs/devices.md, docs/simulate.md).
 
+use model::ProblemCode;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
@@ -90,21 +91,21 @@ impl Damage {
 
     /// The code of a problem that a run tells of such a session. There may be others, which follow from it.
     #[must_use]
-    pub fn code(self) -> &'static str {
+    pub fn code(self) -> ProblemCode {
         match self {
-            Self::CutAcceleration => "truncated_packet",
-            Self::CutPictures => "damaged_image",
-            Self::BadSessionToml => "bad_session_toml",
-            Self::ZeroRange => "zero_blocks",
-            Self::NoAcceleration | Self::NoPictures => "no_files",
-            Self::EmptyCard => "card_does_not_fit_profile",
-            Self::CutMarks => "marks_malformed",
-            Self::GarbagePacket => "bad_stamp",
-            Self::WrongSize => "wrong_size",
-            Self::ClockSetBack => "ambiguous_time",
-            Self::ZeroPictures => "not_an_image",
-            Self::LostBytes => "lost_alignment",
-            Self::UnknownObject => "unknown_object",
+            Self::CutAcceleration => ProblemCode::TruncatedPacket,
+            Self::CutPictures => ProblemCode::DamagedImage,
+            Self::BadSessionToml => ProblemCode::BadSessionToml,
+            Self::ZeroRange => ProblemCode::ZeroBlocks,
+            Self::NoAcceleration | Self::NoPictures => ProblemCode::NoFiles,
+            Self::EmptyCard => ProblemCode::CardDoesNotFitProfile,
+            Self::CutMarks => ProblemCode::MarksMalformed,
+            Self::GarbagePacket => ProblemCode::BadStamp,
+            Self::WrongSize => ProblemCode::WrongSize,
+            Self::ClockSetBack => ProblemCode::AmbiguousTime,
+            Self::ZeroPictures => ProblemCode::NotAnImage,
+            Self::LostBytes => ProblemCode::LostAlignment,
+            Self::UnknownObject => ProblemCode::UnknownObject,
         }
     }
 

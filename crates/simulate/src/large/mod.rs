@@ -46,7 +46,7 @@ struct DamagedRow<'a> {
 impl<'a> DamagedRow<'a> {
     fn from_session(session: &'a Session) -> Option<Self> {
         let kind = session.damage?;
-        Some(Self { session: &session.name, kind, code: kind.code() })
+        Some(Self { session: &session.name, kind, code: kind.code().code() })
     }
 }
 

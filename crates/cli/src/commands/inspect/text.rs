@@ -111,7 +111,7 @@ fn push_problems(text: &mut String, problems: &[Problem]) {
     for (name, severity) in [("losses", Severity::Loss), ("notes", Severity::Note)] {
         let mut codes: BTreeMap<&str, usize> = BTreeMap::new();
         for problem in problems.iter().filter(|problem| problem.severity == severity) {
-            *codes.entry(&problem.code).or_default() += 1;
+            *codes.entry(problem.code.code()).or_default() += 1;
         }
         if codes.is_empty() {
             line(text, 2, name, "none on the card");

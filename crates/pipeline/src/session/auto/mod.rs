@@ -10,7 +10,8 @@ use std::path::Path;
 
 use ingest::{ByteBudget, Picture, SessionReader};
 use model::{
-    Camera, Container, Estimate, FrameReason, Method, Problem, Quantity, Severity, Shape, SizeSigma, Stage, View,
+    Camera, Container, Estimate, FrameReason, Method, Problem, ProblemCode, Quantity, Severity, Shape, SizeSigma,
+    Stage, View,
 };
 use nalgebra::Point2;
 
@@ -158,7 +159,7 @@ impl Search<'_> {
         Problem {
             severity: Severity::Loss,
             stage: Stage::Marks,
-            code: "picture_not_searched".to_owned(),
+            code: ProblemCode::PictureNotSearched,
             place: format!("cards/{}/{}", self.dir.name, frame.image.file),
             fact,
             remedy: "look at the picture; mark it by hand, or copy it from the card again".to_owned(),
