@@ -1,4 +1,4 @@
-//! How many images of the study reach each step, and why the others do not.
+//! The figure `flow`: the numbers of images that reach each step of the selection, and the reasons why the others do not.
 
 use model::{Flow, FlowStep, FrameReason, FrameRow, StudyFlow};
 
@@ -24,10 +24,10 @@ const TOP: f64 = 34.0;
 const ROW: f64 = 30.0;
 const BAR: f64 = 17.0;
 const LINE: f64 = 14.0;
-/// Letters that fit below a bar.
+/// Number of letters that fit below a bar.
 const LETTERS: usize = 98;
 
-/// A bar: a step of the flow, and the reasons that keep images of the step before from it.
+/// A bar of the figure: a step of the flow, with the reasons for which images of the step before do not reach it.
 pub(super) struct Step {
     pub(super) heading: &'static str,
     pub(super) images: usize,
@@ -35,7 +35,7 @@ pub(super) struct Step {
     reasons: Vec<String>,
 }
 
-/// The flow of all images.
+/// Draws the flow of all images of the study.
 pub(super) fn draw(frames: &[FrameRow]) -> Attempt {
     if frames.is_empty() {
         return Attempt::left_out(NAME, TITLE, NO_LEDGER);
@@ -88,7 +88,7 @@ pub(super) fn steps(flow: &Flow) -> Vec<Step> {
     steps
 }
 
-/// The reasons of a step, on lines of no more than about `most` letters.
+/// The reasons of a step as lines of no more than about `most` letters.
 pub(super) fn lines(step: &Step, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for reason in &step.reasons {
@@ -125,7 +125,7 @@ fn draw_step(drawing: &mut Drawing, step: &Step, found: usize, top: f64) {
     }
 }
 
-/// A share of images in words: `< 1 %` is not 0.
+/// A share of images in words. A small share that is not 0 is `< 1 %`.
 #[expect(clippy::cast_precision_loss, reason = "a count of images is far below 2^53")]
 pub(super) fn percent(images: usize, of: usize) -> String {
     let share = 100.0 * images as f64 / of as f64;

@@ -1,4 +1,4 @@
-//! `run`: the main job.
+//! `run`: the main job, from cards and marks to results, tables and report.
 
 mod args;
 
@@ -17,7 +17,8 @@ use crate::exit::{Failure, Outcome};
 use crate::logging::LogFormat;
 use crate::progress::Bars;
 
-/// Runs the study, prints the tables and what was lost.
+/// Runs the study, prints the tables, and writes the summary with all losses to stderr. Fails where the study or the output
+/// cannot be used, no session could be used, or (with `--expect`) the tables differ from the expected ones.
 pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Failure> {
     check(args)?;
     let study = settings::load(&args.study, &args.settings)?;
@@ -32,7 +33,7 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     }
     let options = options(args)?;
     let sink = ::report::ParquetSink::create(out, &frames);
-    let mut sink = sink.map_err(|error| named(error, &options.work_dir))?;
+    let mut sink = sink.map_err(|error| with_holder(error, &options.work_dir))?;
     let progress = bars.for_run();
     let ran = pipeline::run(&study, &options, &progress, &mut sink).map_err(failure)?;
     drop(sink);
@@ -93,7 +94,7 @@ fn options(args: &RunArgs) -> Result<RunOptions, Failure> {
     })
 }
 
-/// How many files of marks there are now, and how many somebody has changed.
+/// Reports how many files of marks there are now, and how many were left because somebody has changed them.
 fn print_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
     let MarksWritten { files, left } = written;
     let place = folder.join("auto");
@@ -109,7 +110,7 @@ fn print_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
     }
 }
 
-/// How many recordings are there for viewers, and which are not.
+/// Reports how many recordings for viewers there are now, and which sessions have none.
 fn print_annotated(annotated: &Annotated, format: LogFormat) {
     let Annotated { folder, made, kept, failed } = annotated;
     if format == LogFormat::Json {
@@ -125,8 +126,8 @@ fn print_annotated(annotated: &Annotated, format: LogFormat) {
     }
 }
 
-/// Who writes the same files, if it is a run in the same work folder.
-fn named(error: SinkError, work_dir: &Path) -> Failure {
+/// The failure of the output's files; where another run in the same work folder is writing them, it names that run.
+fn with_holder(error: SinkError, work_dir: &Path) -> Failure {
     match (&error, Holder::of(work_dir)) {
         (SinkError::File(FileError::Busy { .. }), Some(Holder(holder))) => {
             Failure::Failed(anyhow!(error).context(format!("another run is at work on this output: {holder}")))
@@ -142,7 +143,7 @@ fn failure(error: RunError<SinkError>) -> Failure {
     }
 }
 
-/// What would otherwise fail at the end of a night.
+/// Refuses arguments that would otherwise fail only at the end of a night.
 fn check(args: &RunArgs) -> Result<(), Failure> {
     let refuse = |fact: String| Err(Failure::Usage(anyhow!(fact)));
     place::check_name(&args.place.out)?;
