@@ -4,14 +4,15 @@ use nalgebra::{Point2, Vector2, Vector3};
 
 use super::{Hit, Part, Ray, nearer};
 
-/// A box on the table, with upright walls along X and Y. They have no thickness but for the rim, drawn inwards.
+/// A box on the table, with upright walls along X and Y. The walls have no thickness, except for the rim, which is drawn
+/// inwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tub {
     /// Centre on the table.
     pub center_mm: Point2<f64>,
     /// Half the extents along X and Y.
     pub half_size_mm: Vector2<f64>,
-    /// Height of the rim.
+    /// Height of the rim above the table.
     pub height_mm: f64,
 }
 
@@ -24,7 +25,7 @@ impl Tub {
         walls.fold(nearer(self.hit_rim(ray), self.hit_floor(ray)), nearer)
     }
 
-    /// How far a point lies from the nearest wall; positive inside.
+    /// The distance of a point from the nearest wall; positive inside.
     fn depth_inside(&self, point: Point2<f64>) -> f64 {
         let depth = self.half_size_mm - (point - self.center_mm).abs();
         depth.x.min(depth.y)
@@ -47,7 +48,7 @@ impl Tub {
         (depth >= 0.0).then_some(Hit { distance, part: Part::Floor, normal: Vector3::z(), openness })
     }
 
-    /// The wall across `axis` (0: X, 1: Y) on one side of the centre.
+    /// The hit on the wall across `axis` (0 for X, 1 for Y) on one `side` (1 or -1) of the centre.
     fn hit_wall(&self, ray: &Ray, axis: usize, side: f64) -> Option<Hit> {
         let wall = self.center_mm[axis] + side * self.half_size_mm[axis];
         let distance = (wall - ray.origin[axis]) / ray.direction[axis];

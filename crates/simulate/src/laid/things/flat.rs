@@ -1,4 +1,4 @@
-//! Flat things: napkins and telephones.
+//! Napkins and telephones.
 
 use std::f64::consts::PI;
 
@@ -11,11 +11,11 @@ use crate::world::{Body, Form, Material, Rgb, Texture};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::laid) struct Napkin {
     pub at_mm: Point2<f64>,
-    /// Half its sides.
+    /// Half of its sides.
     pub half_mm: [f64; 2],
     pub turn_rad: f64,
     pub colour: Rgb,
-    /// Of its weave.
+    /// Seed of its random weave.
     pub seed: u64,
 }
 
@@ -40,7 +40,7 @@ impl Napkin {
 pub(in crate::laid) struct Telephone {
     pub at_mm: Point2<f64>,
     pub turn_rad: f64,
-    /// Of its text.
+    /// Seed of its random text.
     pub seed: u64,
 }
 

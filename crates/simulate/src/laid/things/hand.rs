@@ -5,17 +5,17 @@ use rand::Rng;
 
 use crate::world::{Body, Form, Material, Rgb, Texture};
 
-/// A hand with an arm behind it: palm, four fingers of three bones each, a thumb.
+/// A hand with an arm behind it. It has a palm, four fingers of three bones each, and a thumb.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::laid) struct Hand {
-    /// Where the fingertips are.
+    /// The place of the fingertips.
     pub tip_mm: Point3<f64>,
-    /// Where the elbow is.
+    /// The place of the elbow.
     pub elbow_mm: Point3<f64>,
     pub skin: Rgb,
-    /// How far the fingers are bent, radians per bone.
+    /// The bend of the fingers, in radians per bone.
     pub curl: f64,
-    /// Of the skin.
+    /// Seed of the random pattern of the skin.
     pub seed: u64,
 }
 
