@@ -34,7 +34,7 @@ pub fn calibrate(
 ) -> Result<(CalibrationFile, Vec<SessionStatus>), SurveyError> {
     let survey = Survey::new(options)?;
     let session_options = SessionOptions { is_bench: true, ..survey.options.clone() };
-    let outputs = survey.each(study, options.jobs, reporter, |dir| {
+    let outputs = survey.for_each_session(study, options.jobs, reporter, |dir| {
         let road = || run_session(study, dir, &session_options, reporter);
         let output = unless_panicking(dir, &Cell::new(Stage::Study), road);
         let output = output.unwrap_or_else(|problem| failed(study, dir, problem));
@@ -55,10 +55,10 @@ pub fn calibrate(
 }
 
 fn add_physical(file: &mut CalibrationFile, used: &[&SessionOutput], prior: &InputSigma) {
-    let of = |sizes: fn(&SessionOutput) -> &Vec<BenchSize>| -> Vec<BenchSize> {
+    let all_sizes = |sizes: fn(&SessionOutput) -> &Vec<BenchSize>| -> Vec<BenchSize> {
         used.iter().flat_map(|output| sizes(output).iter().cloned()).collect()
     };
-    let (plain, cone) = (of(|o| &o.bench.sizes), of(|o| &o.bench.cone_sizes));
+    let (plain, cone) = (all_sizes(|o| &o.bench.sizes), all_sizes(|o| &o.bench.cone_sizes));
     let fitted = match physical::calibrate(&plain, prior) {
         Ok(fitted) => fitted,
         Err(error) => return file.notes.push(format!("no physical corrections: {error}")),
@@ -106,10 +106,10 @@ fn refusal(fitted: &Physical, parameter: usize, prior: &InputSigma) -> String {
         Source::RangeOffset => (1.0, "mm"),
         _ => (0.01, "%"),
     };
-    let told = fitted.sd[parameter].map_or("nothing".to_owned(), |sd| format!("an SD of {:.2} {unit}", sd / per));
+    let from_data = fitted.sd[parameter].map_or("nothing".to_owned(), |sd| format!("an SD of {:.2} {unit}", sd / per));
     let known = physical::prior_sd(prior, source) / per;
     format!(
-        "{source} is not determined: the data tell {told}, {known:.2} {unit} is known beforehand; it is left at zero"
+        "{source} is not determined: the data tell {from_data}, {known:.2} {unit} is known beforehand; it is left at zero"
     )
 }
 

@@ -94,12 +94,12 @@ fn draw_marks(canvas: &mut Canvas<'_>, view: &View, object: &Drawn, width: u32) 
 fn corners(canvas: &mut Canvas<'_>, view: &View, corners_px: [Point2<f64>; 4], z_mm: f64, width: u32) {
     let [Ok(a), Ok(b), Ok(c), Ok(d)] = corners_px.map(|p| view.on_plane(p, z_mm)) else { return };
     let mut straight = |from: Point2<f64>, to: Point2<f64>, colour: Rgb888| {
-        let at = |i: u32| {
+        let pixel_at = |i: u32| {
             let place = from + (to - from) * (f64::from(i) / f64::from(SIDE_PLACES));
             view.pixel_of(Point3::new(place.x, place.y, z_mm)).ok()
         };
         for i in 0..SIDE_PLACES {
-            if let (Some(one), Some(other)) = (at(i), at(i + 1)) {
+            if let (Some(one), Some(other)) = (pixel_at(i), pixel_at(i + 1)) {
                 line(canvas, one, other, colour, width);
             }
         }
@@ -115,23 +115,23 @@ fn corners(canvas: &mut Canvas<'_>, view: &View, corners_px: [Point2<f64>; 4], z
 /// The circle through points on a plane, with its axes along world X and Y.
 fn circle(canvas: &mut Canvas<'_>, view: &View, points_px: &[Point2<f64>], z_mm: f64, width: u32) {
     let on_plane: Result<Vec<_>, _> = points_px.iter().map(|p| view.on_plane(*p, z_mm)).collect();
-    let Some(found) = on_plane.ok().and_then(|points| fit_circle(&points, |_, _| 1.0).ok()) else { return };
-    let at = |angle: f64| {
+    let Some(fitted) = on_plane.ok().and_then(|points| fit_circle(&points, |_, _| 1.0).ok()) else { return };
+    let pixel_at = |angle: f64| {
         let (sin, cos) = angle.sin_cos();
         let (x, y) = (
-            found.circle.center_mm.x + found.circle.radius_mm * cos,
-            found.circle.center_mm.y + found.circle.radius_mm * sin,
+            fitted.circle.center_mm.x + fitted.circle.radius_mm * cos,
+            fitted.circle.center_mm.y + fitted.circle.radius_mm * sin,
         );
         view.pixel_of(Point3::new(x, y, z_mm)).ok()
     };
     let turn = |i: u32| f64::from(i) / f64::from(PLACES) * std::f64::consts::TAU;
     for i in 0..PLACES {
-        if let (Some(a), Some(b)) = (at(turn(i)), at(turn(i + 1))) {
+        if let (Some(a), Some(b)) = (pixel_at(turn(i)), pixel_at(turn(i + 1))) {
             line(canvas, a, b, RIM, width);
         }
     }
     for i in [0, PLACES / 4] {
-        if let (Some(a), Some(b)) = (at(turn(i)), at(turn(i + PLACES / 2))) {
+        if let (Some(a), Some(b)) = (pixel_at(turn(i)), pixel_at(turn(i + PLACES / 2))) {
             line(canvas, a, b, AXES, width);
         }
     }

@@ -58,7 +58,7 @@ impl Survey {
     }
 
     /// What `one` makes of each session, in the order of their names, until a signal comes.
-    pub fn each<R: Send>(
+    pub fn for_each_session<R: Send>(
         &self,
         study: &Study,
         jobs: Option<NonZeroUsize>,
@@ -67,14 +67,14 @@ impl Survey {
     ) -> Result<Vec<R>, SurveyError> {
         let stop = &self.options.stop;
         reporter.begin(&Totals { sessions: study.sessions.len(), ..Totals::default() });
-        let found = in_parallel(&study.sessions, jobs, |dir| {
-            let found = (!stop.is_set()).then(|| one(dir));
+        let results = in_parallel(&study.sessions, jobs, |dir| {
+            let result = (!stop.is_set()).then(|| one(dir));
             self.forget(dir);
-            found
+            result
         })?;
         match stop.signal() {
             Some(signal) => Err(SurveyError::Stopped { signal }),
-            None => Ok(found.into_iter().flatten().collect()),
+            None => Ok(results.into_iter().flatten().collect()),
         }
     }
 

@@ -64,17 +64,17 @@ enum Outcome {
 pub fn annotate(study: &Study, options: &RunOptions, reporter: &dyn Reporter) -> Result<Annotated, Halted> {
     let work = WorkFolder::open(&options.work_dir, &options.program)?;
     let folder = work.annotated_dir()?;
-    let all = All {
+    let annotator = Annotator {
         study,
         work: &work,
-        kept: work.state.all()?,
+        kept: work.state.kept_by_session()?,
         program: program_and_commit(&options.program, options.commit.as_deref()),
         budget: ByteBudget::new(options.image_memory_bytes),
         options,
         reporter,
     };
     reporter.begin(&Totals { sessions: study.sessions.len(), ..Totals::default() });
-    let outcomes = in_parallel(&study.sessions, options.jobs, |dir| all.session(dir))?;
+    let outcomes = in_parallel(&study.sessions, options.jobs, |dir| annotator.session(dir))?;
     let mut annotated = Annotated { folder, ..Annotated::default() };
     for outcome in outcomes {
         match outcome {
@@ -94,7 +94,7 @@ pub fn annotate(study: &Study, options: &RunOptions, reporter: &dyn Reporter) ->
 }
 
 /// What the sessions at work share.
-struct All<'a> {
+struct Annotator<'a> {
     study: &'a Study,
     work: &'a WorkFolder,
     kept: BTreeMap<String, Kept>,
@@ -106,7 +106,7 @@ struct All<'a> {
 
 /// Why a session has no file.
 #[derive(Debug, thiserror::Error)]
-enum Trouble {
+enum AnnotateFailure {
     #[error(transparent)]
     Work(#[from] WorkError),
     #[error("what was kept of the session cannot be read: {0}; run with --force")]
@@ -121,7 +121,7 @@ enum Trouble {
     Remove(#[from] std::io::Error),
 }
 
-impl All<'_> {
+impl Annotator<'_> {
     fn session(&self, dir: &SessionDir) -> Outcome {
         if self.options.stop.is_set() {
             return Outcome::Stopped;
@@ -134,8 +134,8 @@ impl All<'_> {
         };
         let outcome = match done {
             Ok(Ok(outcome)) => outcome,
-            Ok(Err(Trouble::Annotate(AnnotateError::Stopped))) => Outcome::Stopped,
-            Ok(Err(trouble)) => failed(trouble.to_string()),
+            Ok(Err(AnnotateFailure::Annotate(AnnotateError::Stopped))) => Outcome::Stopped,
+            Ok(Err(failure)) => failed(failure.to_string()),
             Err(problem) => failed(problem.fact),
         };
         if !matches!(outcome, Outcome::Stopped) {
@@ -151,7 +151,7 @@ impl All<'_> {
         SessionStatus { failed: status.failed || matches!(outcome, Outcome::Failed(_)), ..status }
     }
 
-    fn annotated(&self, dir: &SessionDir) -> Result<Outcome, Trouble> {
+    fn annotated(&self, dir: &SessionDir) -> Result<Outcome, AnnotateFailure> {
         let out = annotated_of(&self.options.work_dir, &dir.name);
         let Some(key) = self.key(dir)? else {
             return remove(&out).map(|()| Outcome::Nothing);
@@ -169,7 +169,7 @@ impl All<'_> {
     }
 
     /// What the file is made from; none where the session has failed, or was never measured.
-    fn key(&self, dir: &SessionDir) -> Result<Option<String>, Trouble> {
+    fn key(&self, dir: &SessionDir) -> Result<Option<String>, AnnotateFailure> {
         let Some(kept) = self.kept.get(&dir.name) else { return Ok(None) };
         let failed = kept.status.as_ref().is_none_or(|status| status.failed);
         let (Some(ingest), Some(measure), false) = (&kept.ingest, &kept.measure, failed) else { return Ok(None) };
@@ -177,10 +177,10 @@ impl All<'_> {
         Ok(Some(sha256_of_bytes(&serde_json::to_vec(&parts)?)))
     }
 
-    fn write(&self, dir: &SessionDir, output: &SessionOutput, key: &str, out: &Path) -> Result<(), Trouble> {
+    fn write(&self, dir: &SessionDir, output: &SessionOutput, key: &str, out: &Path) -> Result<(), AnnotateFailure> {
         let recording = self.work.mcap(&dir.name);
         let camera = self.camera(output, &recording)?;
-        let notes = Notes::of(output);
+        let notes = Notes::from_output(output);
         let what = Annotating {
             recording: &recording,
             out,
@@ -197,7 +197,7 @@ impl All<'_> {
             }
             let mut noted = notes.of_image(image);
             if noted.view.is_some() && !noted.marks.is_empty() {
-                let _taken = self.budget.take(room(image));
+                let _taken = self.budget.take(bytes_in_memory(image));
                 match drawn::drawn(&noted, jpeg) {
                     Ok(drawn) => noted.drawn_jpeg = Some(drawn),
                     Err(fact) => tracing::warn!(session = dir.name, "nothing is drawn on {}: {fact}", image.file),
@@ -210,7 +210,7 @@ impl All<'_> {
     }
 
     /// The camera that sizes were measured with, or that of the recording where there are none.
-    fn camera(&self, output: &SessionOutput, recording: &Path) -> Result<Camera, Trouble> {
+    fn camera(&self, output: &SessionOutput, recording: &Path) -> Result<Camera, AnnotateFailure> {
         match &output.shown.camera {
             Some(spec) => Ok(spec.camera()?),
             None => Ok(SessionReader::open(recording)?.metadata().camera.camera()?),
@@ -218,12 +218,12 @@ impl All<'_> {
     }
 }
 
-fn room(image: &ImageEntry) -> u64 {
+fn bytes_in_memory(image: &ImageEntry) -> u64 {
     image.bytes + BYTES_PER_PIXEL * u64::from(image.width_px) * u64::from(image.height_px)
 }
 
 /// A file of an earlier run says what is no longer so.
-fn remove(file: &Path) -> Result<(), Trouble> {
+fn remove(file: &Path) -> Result<(), AnnotateFailure> {
     match std::fs::remove_file(file) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error.into()),
         _ => Ok(()),

@@ -19,7 +19,7 @@ pub(super) struct Notes<'a> {
 }
 
 impl<'a> Notes<'a> {
-    pub fn of(output: &'a SessionOutput) -> Self {
+    pub fn from_output(output: &'a SessionOutput) -> Self {
         let session = output.status.session.as_str();
         let raters: BTreeSet<&str> = output.results.iter().map(|row| row.rater.as_str()).collect();
         Self {

@@ -33,12 +33,12 @@ pub struct Checked {
 /// [`SurveyError`] for what concerns the check as a whole.
 pub fn check(study: &Study, options: &SurveyOptions, reporter: &dyn Reporter) -> Result<Checked, SurveyError> {
     let survey = Survey::new(options)?;
-    let parts = survey.each(study, options.jobs, reporter, |dir| {
+    let parts = survey.for_each_session(study, options.jobs, reporter, |dir| {
         let road = || run_session(study, dir, &survey.options, reporter);
         let output = unless_panicking(dir, &Cell::new(Stage::Study), road);
         let output = output.unwrap_or_else(|problem| failed(study, dir, problem));
         reporter.done(&output.status);
-        Part::of(output)
+        Part::from_output(output)
     })?;
     let mut checked = Checked { sessions: Vec::new(), flow: StudyFlow::default(), study: Vec::new() };
     let mut measured = BTreeSet::new();
@@ -59,10 +59,10 @@ struct Part {
 }
 
 impl Part {
-    fn of(output: SessionOutput) -> Self {
+    fn from_output(output: SessionOutput) -> Self {
         let mut flow = StudyFlow::default();
         output.frames.iter().for_each(|frame| flow.add(frame));
-        let measured = output.results.iter().filter_map(Measured::of).collect();
+        let measured = output.results.iter().filter_map(Measured::from_row).collect();
         Self { status: output.status, flow, measured }
     }
 }

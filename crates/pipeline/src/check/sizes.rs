@@ -19,7 +19,7 @@ pub(super) struct Measured {
 
 impl Measured {
     /// None for a row without a size.
-    pub fn of(row: &ResultRow) -> Option<Self> {
+    pub fn from_row(row: &ResultRow) -> Option<Self> {
         row.predicted_mm.map(|_| Self {
             object: row.object.clone(),
             kind: row.kind,

@@ -114,11 +114,11 @@ impl Ellipse {
     pub fn points_px(&self, count: u32) -> Vec<[f64; 2]> {
         let ([cx, cy], [rx, ry]) = (self.centre_px, self.half_axes_px);
         let (sin, cos) = self.rotation_rad.sin_cos();
-        let at = |i: u32| {
+        let point = |i: u32| {
             let (s, c) = (std::f64::consts::TAU * f64::from(i) / f64::from(count)).sin_cos();
             [cx + rx * c * cos - ry * s * sin, cy + rx * c * sin + ry * s * cos]
         };
-        (0..count).map(at).collect()
+        (0..count).map(point).collect()
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use super::convert::{Made, marks_of};
+use super::convert::{ConvertedMark, marks_of};
 use super::foreign::{ForeignImage, Refused, short};
 use super::label::Names;
 use super::pictures::{Picture, Pictures};
@@ -124,7 +124,7 @@ struct Import<'a> {
 /// A mark, and where it stands.
 struct Placed {
     place: String,
-    mark: Made,
+    mark: ConvertedMark,
 }
 
 impl Import<'_> {
@@ -164,7 +164,7 @@ impl Import<'_> {
                 Ok(converted) => {
                     let note = |fact| Refused { place: place.clone(), fact };
                     imported.notes.extend(converted.notes.into_iter().map(note));
-                    placed.extend(converted.made.into_iter().map(|mark| Placed { place: place.clone(), mark }));
+                    placed.extend(converted.marks.into_iter().map(|mark| Placed { place: place.clone(), mark }));
                 }
                 Err(fact) => imported.refused.push(Refused { place, fact }),
             }
@@ -272,7 +272,7 @@ impl<'a> Target<'a> {
     /// The way to the picture is known once there is a folder for the marks.
     fn text(&self, placed: &[Placed]) -> Result<String, ExchangeError> {
         let shapes = placed.iter().map(|Placed { mark, .. }| {
-            let Made { label, shape_type, points_px } = mark;
+            let ConvertedMark { label, shape_type, points_px } = mark;
             OutShape::new(label.clone(), shape_type, points_px)
         });
         let picture = picture_for(&self.folder, self.dir, self.prepared, self.file);

@@ -35,7 +35,7 @@ impl What {
         }
     }
 
-    pub fn of(code: &str) -> Option<Self> {
+    pub fn from_code(code: &str) -> Option<Self> {
         Self::all().find(|what| what.code() == code)
     }
 }
@@ -76,17 +76,17 @@ impl Names {
         let label = self.renamed.get(&annotation.label).unwrap_or(&annotation.label);
         let attribute = |key: &str| annotation.attributes.get(key).map(String::as_str);
         if let Some((object, code)) = label.rsplit_once('/') {
-            let what = What::of(code).ok_or_else(|| self.unclear(label))?;
+            let what = What::from_code(code).ok_or_else(|| self.unclear(label))?;
             return Ok(Meaning { object: self.known(object)?, what: Some(what) });
         }
-        if let Some(what) = What::of(label).filter(|_| !self.has(label)) {
+        if let Some(what) = What::from_code(label).filter(|_| !self.has(label)) {
             let object = attribute(OBJECT).ok_or_else(|| self.unclear(label))?;
             return Ok(Meaning { object: self.known(object)?, what: Some(what) });
         }
         if !self.has(label) {
             return Err(self.unclear(label));
         }
-        let what = attribute(WHAT).map(|code| What::of(code).ok_or_else(|| unclear_what(code))).transpose()?;
+        let what = attribute(WHAT).map(|code| What::from_code(code).ok_or_else(|| unclear_what(code))).transpose()?;
         Ok(Meaning { object: label.clone(), what })
     }
 

@@ -19,7 +19,7 @@ mod pictures;
 
 use std::path::Path;
 
-pub use convert::{Converted, Made, marks_of};
+pub use convert::{Converted, ConvertedMark, marks_of};
 pub use error::ExchangeError;
 pub use export::{ExportOptions, Exported, Format, export};
 pub use foreign::{Annotation, Drawn, Ellipse, Foreign, ForeignImage, Form, NamedPoint, Refused, Sight};

@@ -45,7 +45,7 @@ struct Name<'a> {
 
 impl<'a> Name<'a> {
     /// `WHAT`, `WHAT_REST` (or with `-`, `.`, a space), or REST alone.
-    fn of(name: &'a str) -> Self {
+    fn parse(name: &'a str) -> Self {
         for what in What::all() {
             if let Some(rest) = name.strip_prefix(what.code()) {
                 let separators = ['_', '-', '.', ' '];
@@ -65,7 +65,7 @@ impl<'a> Name<'a> {
 pub(super) fn groups(points: &[NamedPoint], of_label: Option<What>) -> Result<Vec<Group>, String> {
     let mut by_what: BTreeMap<What, Vec<(&str, &NamedPoint)>> = BTreeMap::new();
     for point in points.iter().filter(|point| point.sight != Sight::Absent) {
-        let mut name = Name::of(&point.name);
+        let mut name = Name::parse(&point.name);
         if name.what != of_label && matches!(of_label, Some(What::Line(_))) {
             name = Name { what: None, rest: &point.name }; // "foot" and "rim" are the ends of a line
         }

@@ -164,7 +164,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
     use super::*;
 
-    fn found(cards: &[(&str, &[&str])], name: &str) -> Result<String, String> {
+    fn place_of(cards: &[(&str, &[&str])], name: &str) -> Result<String, String> {
         let dir = |name: &str| SessionDir { name: name.to_owned(), card: None, marks: BTreeMap::new() };
         let dirs: Vec<SessionDir> = cards.iter().map(|(session, _)| dir(session)).collect();
         let mut pictures = Pictures::default();
@@ -187,7 +187,7 @@ mod tests {
             ("./images/b.jpg", "S1/images/b.jpg"),
             ("other/b.jpg", "S1/images/b.jpg"),
         ] {
-            assert_eq!(found(cards, name).as_deref(), Ok(expected), "{name}");
+            assert_eq!(place_of(cards, name).as_deref(), Ok(expected), "{name}");
         }
     }
 
@@ -204,7 +204,7 @@ mod tests {
             ("S1/c.jpg", "several images of one session"),
             ("", "no card has an image"),
         ] {
-            let fact = found(cards, name).unwrap_err();
+            let fact = place_of(cards, name).unwrap_err();
             assert!(fact.contains(expected), "{name}: {fact}");
         }
     }
@@ -212,6 +212,6 @@ mod tests {
     #[test]
     fn the_folder_that_agrees_best_decides() {
         let cards: &[(&str, &[&str])] = &[("S1", &["left/a.jpg"]), ("S2", &["right/a.jpg"])];
-        assert_eq!(found(cards, "right/a.jpg").as_deref(), Ok("S2/right/a.jpg"));
+        assert_eq!(place_of(cards, "right/a.jpg").as_deref(), Ok("S2/right/a.jpg"));
     }
 }

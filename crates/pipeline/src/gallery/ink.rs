@@ -15,14 +15,14 @@ const DASH_PX: usize = 4;
 const WEIGHT: u32 = 60;
 
 /// A dashed line down the picture at `x`, through which it is seen.
-pub(super) fn down(picture: &mut Picture, x: f64) {
+pub(super) fn dashed_vertical(picture: &mut Picture, x: f64) {
     for y in 0..picture.height_px as usize {
         blend(picture, whole(x), Some(y), y);
     }
 }
 
 /// A dashed line across the picture at `y`.
-pub(super) fn across(picture: &mut Picture, y: f64) {
+pub(super) fn dashed_horizontal(picture: &mut Picture, y: f64) {
     for x in 0..picture.width_px as usize {
         blend(picture, Some(x), whole(y), x);
     }
@@ -65,11 +65,11 @@ mod tests {
     fn what_lies_outside_is_cut_off() {
         let mut picture = Picture { width_px: 20, height_px: 10, rgb: vec![200; 600] };
         for place in [-3.0, 400.0, f64::NAN] {
-            down(&mut picture, place);
-            across(&mut picture, place);
+            dashed_vertical(&mut picture, place);
+            dashed_horizontal(&mut picture, place);
         }
         assert_eq!(picture.rgb, vec![200; 600]);
-        down(&mut picture, 3.2);
+        dashed_vertical(&mut picture, 3.2);
         let changed: Vec<usize> = (0..200).filter(|at| picture.rgb[3 * at] != 200).map(|at| at % 20).collect();
         assert_eq!(changed, vec![3; 10]);
         letters(&mut picture, [15.0, 12.0], "outside");

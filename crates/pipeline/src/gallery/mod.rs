@@ -1,10 +1,10 @@
 //! Pictures for a report: every measured one made small, with its marks; and of the surest one of some sessions also the
 //! picture with its lens corrected, and projected on the table (Figs. 9 to 12 of the paper).
 
+mod carried_marks;
 mod corrected;
 mod error;
 mod ink;
-mod marks;
 mod plane;
 mod resample;
 mod small;
@@ -24,7 +24,7 @@ use crate::reporter::{Reporter, Totals};
 use crate::session::{SessionOutput, Shown, ShownImage};
 use crate::stop::Stop;
 use crate::work::{State, recording_of, state_file};
-use marks::Marked;
+use carried_marks::MarkedPicture;
 
 /// Sessions of which the corrected and the projected picture are made.
 const EXEMPLARY_SESSIONS: usize = 12;
@@ -147,7 +147,7 @@ impl Maker<'_> {
             if let Some(signal) = self.options.stop.signal() {
                 return Err(GalleryHalted::Stopped { signal }.into());
             }
-            self.some(some, &mut reader, sink)?;
+            self.hand_on(some, &mut reader, sink)?;
         }
         Ok(Ok(()))
     }
@@ -169,7 +169,7 @@ impl Maker<'_> {
     }
 
     /// Reads some pictures one after the other, makes theirs in parallel, and hands them on in order.
-    fn some<S: GallerySink>(
+    fn hand_on<S: GallerySink>(
         &mut self,
         subjects: &[Subject<'_>],
         reader: &mut SessionReader,
@@ -180,7 +180,7 @@ impl Maker<'_> {
         let budget = &self.budget;
         let made: Vec<Result<Vec<GalleryPicture>, String>> = self.pool.install(|| {
             let one = |(subject, bytes): (&Subject<'_>, Result<Vec<u8>, String>)| {
-                let _taken = budget.take(subject.room());
+                let _taken = budget.take(subject.decoded_bytes());
                 subject.pictures(&bytes?)
             };
             subjects.par_iter().zip(bytes).with_max_len(1).map(one).collect()
@@ -212,7 +212,7 @@ fn surest<'s>(shown: &'s Shown, frames: &[FrameRow]) -> Option<&'s String> {
 }
 
 impl Subject<'_> {
-    fn room(&self) -> u64 {
+    fn decoded_bytes(&self) -> u64 {
         BYTES_PER_PIXEL * u64::from(self.image.width_px) * u64::from(self.image.height_px)
     }
 
@@ -224,22 +224,23 @@ impl Subject<'_> {
             return Err(format!("the picture is {size_px:?} px, but the camera's are {expected_px:?}"));
         }
         if !self.is_exemplary {
-            let marked = small::of(picture, &self.view, self.shown).ok_or("the picture is too flat to be reduced")?;
+            let marked =
+                small::reduce(picture, &self.view, self.shown).ok_or("the picture is too flat to be reduced")?;
             return Ok(vec![self.gallery_picture(PictureView::Camera, marked)?]);
         }
         let (source, view) = resample::source(picture, &self.view).ok_or("the picture is too flat to be reduced")?;
-        let marks = marks::resampled(self.shown, self.view.camera().size_px(), view.camera().size_px());
-        let corrected = corrected::of(&source, view.camera(), &marks);
-        let plane = plane::of(&source, &view, &marks);
-        let camera = small::of(source, &view, &marks).ok_or("the picture is too flat to be reduced")?;
+        let marks = carried_marks::resampled(self.shown, self.view.camera().size_px(), view.camera().size_px());
+        let corrected = corrected::undistort(&source, view.camera(), &marks);
+        let plane = plane::project(&source, &view, &marks);
+        let camera = small::reduce(source, &view, &marks).ok_or("the picture is too flat to be reduced")?;
         let views =
             [(PictureView::Camera, Some(camera)), (PictureView::Corrected, corrected), (PictureView::Plane, plane)];
         let shown = views.into_iter().filter_map(|(view, marked)| Some(self.gallery_picture(view, marked?)));
         shown.collect()
     }
 
-    fn gallery_picture(&self, view: PictureView, marked: Marked) -> Result<GalleryPicture, String> {
-        let Marked { picture, marks } = marked;
+    fn gallery_picture(&self, view: PictureView, marked: MarkedPicture) -> Result<GalleryPicture, String> {
+        let MarkedPicture { picture, marks } = marked;
         Ok(GalleryPicture {
             session: self.session.to_owned(),
             image: self.image.file.clone(),

@@ -4,8 +4,8 @@ use ingest::Picture;
 use model::View;
 use nalgebra::{Point2, Point3, Vector2};
 
-use super::ink::{across, down, letters};
-use super::marks::{Marked, placed};
+use super::carried_marks::{MarkedPicture, carried};
+use super::ink::{dashed_horizontal, dashed_vertical, letters};
 use super::resample::resample;
 use super::small::SIDE_PX;
 use crate::session::ShownImage;
@@ -30,7 +30,7 @@ struct Sheet {
 }
 
 /// None where nothing of what was marked lies on the table before the camera.
-pub(super) fn of(source: &Picture, view: &View, shown: &ShownImage) -> Option<Marked> {
+pub(super) fn project(source: &Picture, view: &View, shown: &ShownImage) -> Option<MarkedPicture> {
     let on_table = |[x, y]: [f64; 2]| view.on_plane(Point2::new(x, y), 0.0).ok();
     let marks = shown.objects.iter().flat_map(|object| &object.marks);
     let of_marks = marks.map(|mark| mark.points_px.iter().filter_map(|point| on_table(*point)).collect::<Vec<_>>());
@@ -40,8 +40,8 @@ pub(super) fn of(source: &Picture, view: &View, shown: &ShownImage) -> Option<Ma
         view.pixel_of(Point3::new(at_mm.x, at_mm.y, 0.0)).ok()
     });
     sheet.draw_grid(&mut picture);
-    let marks = placed(shown, |point| on_table(point).map(|at_mm| sheet.pixel_of(at_mm)));
-    Some(Marked { picture, marks })
+    let marks = carried(shown, |point| on_table(point).map(|at_mm| sheet.pixel_of(at_mm)));
+    Some(MarkedPicture { picture, marks })
 }
 
 /// The points of a mark; of a line also the circle that it is a diameter of, since what was measured is as long as wide.
@@ -100,8 +100,8 @@ impl Sheet {
         let columns: Vec<_> = columns.map(|mm| (mm, self.pixel_of(Point2::new(mm, near_mm))[0])).collect();
         let rows = multiples(spacing_mm, near_mm, self.far_mm);
         let rows: Vec<_> = rows.map(|mm| (mm, self.pixel_of(Point2::new(self.left_mm, mm))[1])).collect();
-        columns.iter().for_each(|(_, x)| down(picture, *x));
-        rows.iter().for_each(|(_, y)| across(picture, *y));
+        columns.iter().for_each(|(_, x)| dashed_vertical(picture, *x));
+        rows.iter().for_each(|(_, y)| dashed_horizontal(picture, *y));
         columns.iter().for_each(|(mm, x)| letters(picture, [x + 2.0, height - 4.0], &format!("{mm:.0}")));
         rows.iter().for_each(|(mm, y)| letters(picture, [2.0, y - 3.0], &format!("{mm:.0}")));
         let title = format!("Z = 0, grid {spacing_mm:.0} mm; across: right of the camera, up: ahead of it, in mm");
@@ -130,30 +130,30 @@ mod tests {
 
     #[test]
     fn it_holds_what_was_marked_at_its_scale() {
-        let found = sheet(&[[-50.0, 300.0], [150.0, 500.0]]).unwrap_or_else(|| panic!("a sheet"));
-        assert_eq!(found.size_px, [640, 640]);
-        assert!((found.mm_per_px - 280.0 / 640.0).abs() < 1e-12, "40 mm around it");
-        let [a, b] = [[-50.0, 300.0], [150.0, 500.0]].map(|at| found.pixel_of(Point2::from(at)));
-        assert!((b[0] - a[0] - 200.0 / found.mm_per_px).abs() < 1e-9 && b[1] < a[1], "further away is higher");
-        let there = found.at_mm(a[0], a[1]);
+        let drawn_on = sheet(&[[-50.0, 300.0], [150.0, 500.0]]).unwrap_or_else(|| panic!("a sheet"));
+        assert_eq!(drawn_on.size_px, [640, 640]);
+        assert!((drawn_on.mm_per_px - 280.0 / 640.0).abs() < 1e-12, "40 mm around it");
+        let [a, b] = [[-50.0, 300.0], [150.0, 500.0]].map(|at| drawn_on.pixel_of(Point2::from(at)));
+        assert!((b[0] - a[0] - 200.0 / drawn_on.mm_per_px).abs() < 1e-9 && b[1] < a[1], "further away is higher");
+        let there = drawn_on.at_mm(a[0], a[1]);
         assert!((there - Point2::new(-50.0, 300.0)).norm() < 1e-9);
-        assert!((found.spacing_mm() - 50.0).abs() < 1e-12);
+        assert!((drawn_on.spacing_mm() - 50.0).abs() < 1e-12);
     }
 
     #[test]
     fn a_diameter_stands_for_its_circle() {
         let line = with_object([[-100.0, 300.0], [100.0, 300.0]].map(Point2::from).to_vec());
-        let found = Sheet::around(line.into_iter()).unwrap_or_else(|| panic!("a sheet"));
-        assert_eq!(found.size_px, [640, 640]);
+        let drawn_on = Sheet::around(line.into_iter()).unwrap_or_else(|| panic!("a sheet"));
+        assert_eq!(drawn_on.size_px, [640, 640]);
         let rim = [[-50.0, 300.0], [50.0, 300.0], [0.0, 350.0]].map(Point2::from).to_vec();
         assert_eq!(with_object(rim.clone()), rim);
     }
 
     #[test]
     fn a_mark_near_the_horizon_does_not_make_the_rest_tiny() {
-        let found = sheet(&[[0.0, 300.0], [100.0, 400.0], [0.0, 90_000.0]]).unwrap_or_else(|| panic!("a sheet"));
-        assert!(found.size_px == [235, 640] && found.mm_per_px < 2.4, "{found:?}");
-        let [_, y] = found.pixel_of(Point2::new(0.0, 300.0));
+        let drawn_on = sheet(&[[0.0, 300.0], [100.0, 400.0], [0.0, 90_000.0]]).unwrap_or_else(|| panic!("a sheet"));
+        assert!(drawn_on.size_px == [235, 640] && drawn_on.mm_per_px < 2.4, "{drawn_on:?}");
+        let [_, y] = drawn_on.pixel_of(Point2::new(0.0, 300.0));
         assert!((0.0..640.0).contains(&y), "what is near is in it");
         assert_eq!(sheet(&[]), None);
     }

@@ -147,20 +147,20 @@ mod tests {
 
     #[test]
     fn the_longest_gaps_come_first_and_no_more_than_five() {
-        let at = |s: f64| UtcNs(0).plus_seconds(s);
+        let utc = |s: f64| UtcNs(0).plus_seconds(s);
         let lengths_s = [2.0, 9.0, 3.0, 9.0, 4.0, 5.0, 6.0];
         let listed_gaps: Vec<Span> = (0..)
             .zip(lengths_s)
-            .map(|(i, s)| Span { from: at(f64::from(i) * 20.0), to: at(f64::from(i) * 20.0 + s) })
+            .map(|(i, s)| Span { from: utc(f64::from(i) * 20.0), to: utc(f64::from(i) * 20.0 + s) })
             .collect();
         let facts = |mut facts: StreamFacts| {
             (facts.gaps, facts.listed_gaps) = (7, listed_gaps);
             facts
         };
-        let found = ClockFacts::new(&facts(StreamFacts::default()), &TimeZone::UTC);
-        let longest_s: Vec<i64> = found.gaps.longest.iter().map(|span| span.duration_s as i64).collect();
-        assert_eq!((longest_s, found.gaps.count), (vec![9, 9, 6, 5, 4], 7));
-        assert!(found.gaps.longest[0].from.0 < found.gaps.longest[1].from.0);
+        let clock = ClockFacts::new(&facts(StreamFacts::default()), &TimeZone::UTC);
+        let longest_s: Vec<i64> = clock.gaps.longest.iter().map(|span| span.duration_s as i64).collect();
+        assert_eq!((longest_s, clock.gaps.count), (vec![9, 9, 6, 5, 4], 7));
+        assert!(clock.gaps.longest[0].from.0 < clock.gaps.longest[1].from.0);
         let nothing = Ambiguous::new(&Timeline::default(), &TimeZone::UTC);
         assert!(nothing.total_s.is_sign_positive() && nothing.count == 0);
     }

@@ -79,7 +79,7 @@ pub struct CameraFacts {
 }
 
 /// Reads all that is told of a session.
-pub(super) fn of(reader: &mut SessionReader, mount_pitch_deg: Option<f64>) -> Result<SessionFacts, ReadError> {
+pub(super) fn read(reader: &mut SessionReader, mount_pitch_deg: Option<f64>) -> Result<SessionFacts, ReadError> {
     let metadata = reader.metadata().clone();
     let zone = TimeZone::get(&metadata.time_zone).unwrap_or(TimeZone::UTC);
     let mount_pitch_deg = mount_pitch_deg.unwrap_or(metadata.mount_pitch_deg);

@@ -19,7 +19,7 @@ use model::{Problem, SessionStatus, Severity, Stage};
 
 use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
-use crate::session::{Prepared, ingest_unkept, without_host};
+use crate::session::{Prepared, ingest_without_state, without_host};
 use crate::study::{SessionDir, Study};
 use crate::survey::{Survey, SurveyError, SurveyOptions};
 
@@ -37,7 +37,7 @@ pub use range::RangeFacts;
 /// # Errors
 /// [`ReadError`] when the file cannot be read, is damaged, or is not of this program.
 pub fn inspect_file(path: &Path, mount_pitch_deg: Option<f64>) -> Result<SessionFacts, ReadError> {
-    facts::of(&mut SessionReader::open(path)?, mount_pitch_deg)
+    facts::read(&mut SessionReader::open(path)?, mount_pitch_deg)
 }
 
 /// One session of a study.
@@ -60,7 +60,7 @@ pub fn inspect_study(
     reporter: &dyn Reporter,
 ) -> Result<Vec<Inspected>, SurveyError> {
     let survey = Survey::new(options)?;
-    let inspected = survey.each(study, options.jobs, reporter, |dir| {
+    let inspected = survey.for_each_session(study, options.jobs, reporter, |dir| {
         let stage = Cell::new(Stage::Ingest);
         let facts = unless_panicking(dir, &stage, || inspect_session(study, dir, &survey, reporter));
         let facts = facts.and_then(|facts| facts);
@@ -82,7 +82,7 @@ fn inspect_session(
         Problem { fact, ..problem }
     };
     let prepared = Prepared::new(study, dir, &survey.options.program);
-    let mcap = prepared.and_then(|prepared| ingest_unkept(&prepared, &survey.options, reporter));
+    let mcap = prepared.and_then(|prepared| ingest_without_state(&prepared, &survey.options, reporter));
     reporter.stage(&dir.name, Stage::Signals);
     let facts = mcap.and_then(|mcap| {
         inspect_file(&mcap, study.spec.mount.pitch_offset_deg).map_err(|error| unreadable(dir, &error))

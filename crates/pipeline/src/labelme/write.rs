@@ -57,7 +57,7 @@ pub(crate) struct Shape<'a> {
 }
 
 impl<'a> Shape<'a> {
-    fn of(rim: &'a AutoRim) -> Self {
+    fn from_rim(rim: &'a AutoRim) -> Self {
         let label = format!("{}/{}", rim.object, Feature::Rim);
         Self { aim_batch: Some(rim.found), ..Self::new(label, "polygon", &rim.points_px) }
     }
@@ -70,7 +70,7 @@ impl<'a> Shape<'a> {
 
 /// The text of the file. `image_path`: where the picture is, from where the file will be; `picture_px`: its width and height.
 pub(crate) fn text_of(rims: &[AutoRim], image_path: &str, picture_px: [u32; 2]) -> serde_json::Result<String> {
-    text_of_shapes(rims.iter().map(Shape::of).collect(), image_path, picture_px)
+    text_of_shapes(rims.iter().map(Shape::from_rim).collect(), image_path, picture_px)
 }
 
 /// As [`text_of`], of any shapes.

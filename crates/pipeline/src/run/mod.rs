@@ -19,12 +19,12 @@ use model::{ResultSink, RunLog, SessionStatus, StageLog};
 use crate::reporter::{Reporter, Totals};
 use crate::study::Study;
 use crate::work::WorkFolder;
-use carry_out::All;
+use carry_out::Batch;
 pub use error::{Halted, RunError};
 pub use options::RunOptions;
 pub(crate) use options::program_and_commit;
-use plan::Common;
 pub use plan::Current;
+use plan::RunContext;
 pub use status::{SessionState, StudyState, status};
 use write::Writing;
 
@@ -63,22 +63,22 @@ pub fn run<S: ResultSink>(
     }
     let study_inputs = write::study_inputs(study)?;
     let program = options.program_and_commit();
-    let common = Common::new(study, &program)?;
-    let all = All { common: &common, work: &work, options, reporter };
+    let context = RunContext::new(study, &program)?;
+    let batch = Batch { context: &context, work: &work, options, reporter };
 
-    let plans = all.plan(&study.sessions.iter().collect::<Vec<_>>())?;
+    let plans = batch.plan(&study.sessions.iter().collect::<Vec<_>>())?;
     reporter.begin(&Totals {
         sessions: plans.len(),
         kept: plans.iter().filter(|plan| plan.current.all()).count(),
         bytes: Some(plans.iter().map(|plan| plan.bytes_to_read).sum()),
     });
-    let mut tally = all.carry_out(&plans)?;
+    let mut tally = batch.carry_out(&plans)?;
     let writing = Writing { study, options, work: &work, study_inputs };
     let mut wrote = false;
     if !writing.is_done(&sink.files())? {
         let damaged = writing.damaged(&plans)?;
         if !damaged.is_empty() {
-            tally.add(all.carry_out(&all.plan(&damaged)?)?);
+            tally.add(batch.carry_out(&batch.plan(&damaged)?)?);
         }
         let log = RunLog { started_utc, ..tally.log(options) };
         writing.write(&tally.statuses, log, start, sink)?;

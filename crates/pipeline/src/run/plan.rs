@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use ingest::{CardLook, Fingerprint};
+use ingest::{CardFingerprinter, Fingerprint};
 use model::{SessionStatus, Stage};
 
 use super::Halted;
@@ -41,21 +41,22 @@ pub(crate) struct SessionPlan<'a> {
     pub kept: Kept,
 }
 
-/// What all sessions have in common.
-pub(crate) struct Common<'a> {
+/// What all sessions of a run have in common.
+pub(crate) struct RunContext<'a> {
     pub study: &'a Study,
     pub program: &'a str,
     /// SHA-256 of objects.csv.
     objects_csv: String,
-    pub look: CardLook,
+    pub fingerprinter: CardFingerprinter,
 }
 
-impl<'a> Common<'a> {
+impl<'a> RunContext<'a> {
     pub fn new(study: &'a Study, program: &'a str) -> Result<Self, Halted> {
         let objects = study.dir.join("objects.csv");
         let objects_csv = sha256_of_file(&objects).map_err(|source| Halted::Input { path: objects, source })?;
-        let look = CardLook::new(&study.profile).map_err(|error| Halted::Ingest { error: Box::new(error) })?;
-        Ok(Self { study, program, objects_csv, look })
+        let fingerprinter =
+            CardFingerprinter::new(&study.profile).map_err(|error| Halted::Ingest { error: Box::new(error) })?;
+        Ok(Self { study, program, objects_csv, fingerprinter })
     }
 
     pub fn measure_parts<'p>(
@@ -70,7 +71,7 @@ impl<'a> Common<'a> {
     /// Looks at a session. `kept` is what the state has of it.
     pub fn plan(&self, dir: &'a SessionDir, kept: Kept, state: Option<&State>, mcap: &Path) -> SessionPlan<'a> {
         let prepared = Prepared::new(self.study, dir, self.program);
-        let card = prepared.as_ref().ok().and_then(|prepared| self.look.fingerprint(&prepared.source).ok());
+        let card = prepared.as_ref().ok().and_then(|prepared| self.fingerprinter.fingerprint(&prepared.source).ok());
         let current = match (&prepared, &card) {
             (Ok(prepared), Some(card)) => self.current(dir, prepared, card, &kept, state, mcap).unwrap_or_default(),
             _ => Current::default(),
@@ -102,13 +103,13 @@ impl<'a> Common<'a> {
 
 /// Whether the MCAP file is as ingest left it, or at least whole and of that key.
 fn recording_is_there(session: &str, ingest: &KeptStage, state: Option<&State>, mcap: &Path) -> bool {
-    let now = of_recording(mcap).hex();
+    let now = recording_fingerprint(mcap).hex();
     let then = state.and_then(|state| state.output(session, Stage::Ingest).ok().flatten());
     then == Some(now) || ingest::ingest_is_current(mcap, &ingest.key)
 }
 
 /// What the system says of an MCAP file.
-pub(super) fn of_recording(mcap: &Path) -> Fingerprint {
+pub(super) fn recording_fingerprint(mcap: &Path) -> Fingerprint {
     let mut fingerprint = Fingerprint::default();
     fingerprint.add_file("mcap", mcap);
     fingerprint

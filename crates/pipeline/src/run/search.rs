@@ -3,7 +3,7 @@
 use model::Stage;
 
 use super::plan::SessionPlan;
-use super::worker::{Trouble, Worker};
+use super::worker::{Interruption, Worker};
 use crate::session::{AutoMarks, Prepared, Recording, Search, SearchError, SessionOutput};
 
 impl Worker<'_> {
@@ -16,12 +16,12 @@ impl Worker<'_> {
         prepared: &Prepared,
         recording: &Recording,
         key: Option<&str>,
-    ) -> Result<AutoMarks, Trouble> {
+    ) -> Result<AutoMarks, Interruption> {
         if let Some(found) = self.found_before(plan, key)? {
             return Ok(found);
         }
         let mcap = self.mcap(plan);
-        let (study, dir, budget, stop) = (self.common.study, plan.dir, self.budget, self.stop);
+        let (study, dir, budget, stop) = (self.context.study, plan.dir, self.budget, self.stop);
         let search = Search { study, dir, prepared, mcap: &mcap, budget, stop };
         match search.run(recording) {
             Err(SearchError::Recording(problem)) => {
@@ -32,7 +32,7 @@ impl Worker<'_> {
         }
     }
 
-    fn found_before(&self, plan: &SessionPlan<'_>, key: Option<&str>) -> Result<Option<AutoMarks>, Trouble> {
+    fn found_before(&self, plan: &SessionPlan<'_>, key: Option<&str>) -> Result<Option<AutoMarks>, Interruption> {
         let (Some(key), false) = (key, self.force) else { return Ok(None) };
         let kept = self.work.state.output(&plan.dir.name, Stage::Measure)?;
         // What cannot be read was kept by another version.

@@ -7,7 +7,7 @@ use model::SessionStatus;
 
 use super::Halted;
 use super::options::program_and_commit;
-use super::plan::{Common, Current};
+use super::plan::{Current, RunContext};
 use crate::parallel::in_parallel;
 use crate::session::Prepared;
 use crate::study::{SessionDir, Study};
@@ -47,27 +47,27 @@ pub struct SessionState {
 /// [`Halted`] when the state of the work folder cannot be read.
 pub fn status(study: &Study, work_dir: &Path, program: &str, commit: Option<&str>) -> Result<StudyState, Halted> {
     let state = State::open_to_look(&state_file(work_dir))?;
-    let mut kept = state.as_ref().map(State::all).transpose()?.unwrap_or_default();
+    let mut kept = state.as_ref().map(State::kept_by_session).transpose()?.unwrap_or_default();
     let program = program_and_commit(program, commit);
-    let common = Common::new(study, &program)?;
+    let context = RunContext::new(study, &program)?;
     let dirs: Vec<_> = study.sessions.iter().map(|dir| (dir, kept.remove(&dir.name).unwrap_or_default())).collect();
     let sessions = in_parallel(&dirs, None, |(dir, kept): &(_, Kept)| {
         let mcap = recording_of(work_dir, &dir.name);
-        let plan = common.plan(dir, kept.clone(), state.as_ref(), &mcap);
+        let plan = context.plan(dir, kept.clone(), state.as_ref(), &mcap);
         SessionState {
             session: dir.name.clone(),
             current: plan.current,
             bytes_to_read: plan.bytes_to_read,
-            has_old_calibration: plan.current.ingest && has_old_calibration(&common, dir, &mcap),
+            has_old_calibration: plan.current.ingest && has_old_calibration(&context, dir, &mcap),
             status: plan.kept.status,
             measured_utc: plan.kept.measure.map(|stage| stage.made_utc),
         }
     })?;
-    Ok(StudyState { sessions, removed: kept.into_keys().collect(), holder: Holder::of(work_dir) })
+    Ok(StudyState { sessions, removed: kept.into_keys().collect(), holder: Holder::current(work_dir) })
 }
 
-fn has_old_calibration(common: &Common<'_>, dir: &SessionDir, mcap: &Path) -> bool {
-    match (Prepared::new(common.study, dir, common.program), SessionReader::open(mcap)) {
+fn has_old_calibration(context: &RunContext<'_>, dir: &SessionDir, mcap: &Path) -> bool {
+    match (Prepared::new(context.study, dir, context.program), SessionReader::open(mcap)) {
         (Ok(prepared), Ok(reader)) => reader.metadata().camera != prepared.source.camera_spec,
         _ => false,
     }

@@ -6,7 +6,7 @@ use model::{RunLog, SessionLog, SessionStatus, Stage, StageLog};
 
 use super::RunOptions;
 use super::plan::{SessionPlan, statuses};
-use super::worker::Done;
+use super::worker::SessionDone;
 use crate::parallel::jobs_or_default;
 
 /// What a run did.
@@ -19,9 +19,9 @@ pub(super) struct Tally {
 
 impl Tally {
     /// `current`: the sessions for which nothing was done.
-    pub fn new(current: &[&SessionPlan<'_>], done: Vec<Done>) -> Self {
+    pub fn new(current: &[&SessionPlan<'_>], done: Vec<SessionDone>) -> Self {
         let mut tally = Self { statuses: statuses(current), logs: Vec::new() };
-        for Done { status, log } in done {
+        for SessionDone { status, log } in done {
             tally.statuses.insert(status.session.clone(), status);
             tally.logs.extend(Some(log).filter(|log| log.ingest_s.or(log.signals_s).or(log.measure_s).is_some()));
         }
@@ -36,7 +36,7 @@ impl Tally {
 
     /// Sessions and seconds by stage.
     pub fn stages(&self) -> Vec<StageLog> {
-        let of = |stage, seconds: fn(&SessionLog) -> Option<f64>| {
+        let stage_log = |stage, seconds: fn(&SessionLog) -> Option<f64>| {
             let all: Vec<f64> = self.logs.iter().filter_map(seconds).collect();
             let did = |session: &str| self.logs.iter().any(|log| log.session == session && seconds(log).is_some());
             let failed = self.statuses.values().filter(|status| status.failed && !did(&status.session)).count();
@@ -44,9 +44,9 @@ impl Tally {
             StageLog { stage, done: all.len(), kept, failed, seconds: all.iter().sum() }
         };
         vec![
-            of(Stage::Ingest, |log| log.ingest_s),
-            of(Stage::Signals, |log| log.signals_s),
-            of(Stage::Measure, |log| log.measure_s),
+            stage_log(Stage::Ingest, |log| log.ingest_s),
+            stage_log(Stage::Signals, |log| log.signals_s),
+            stage_log(Stage::Measure, |log| log.measure_s),
         ]
     }
 

@@ -84,7 +84,7 @@ impl<'a> Writing<'a> {
 
     /// What stands for files of results that were written now.
     fn written(&self, files: &[PathBuf]) -> Result<Written, Halted> {
-        let kept = self.work.state.all()?;
+        let kept = self.work.state.kept_by_session()?;
         let rows_of =
             |dir: &SessionDir| Some((dir.name.clone(), kept.get(&dir.name)?.measure.as_ref()?.output_sha256.clone()));
         let rows: BTreeMap<String, String> = self.study.sessions.iter().filter_map(rows_of).collect();

@@ -23,9 +23,9 @@ pub(super) fn estimate(reader: &mut SessionReader, images: &[ImageEntry]) -> Res
     }
     let times: Vec<_> = needed.iter().map(|image| images[*image].time).collect();
     let directions = lag::directions(reader, &times)?;
-    let at = |image: usize| needed.binary_search(&image).ok();
+    let position = |image: usize| needed.binary_search(&image).ok();
     let pair = |first: &usize| {
-        let (a, b) = (at(*first)?, at(first + 1)?);
+        let (a, b) = (position(*first)?, position(first + 1)?);
         let change = lag::change(thumbnails[a].as_ref()?, thumbnails[b].as_ref()?)?;
         Some(PairMotion { change, from: &directions[a], to: &directions[b] })
     };
@@ -122,21 +122,21 @@ mod tests {
 
     #[test]
     fn the_note_says_what_was_found_and_what_was_used() {
-        let found = LagEstimate {
+        let estimated = LagEstimate {
             verdict: LagVerdict::Told,
             lag_s: Some(-1.52),
             correlation: Some(0.71),
             half_width_s: Some(0.35),
             pairs: 250,
         };
-        let told = note("P01", &found, 0.0);
-        assert_eq!((told.code.as_str(), told.severity), ("image_lag_estimated", Severity::Note));
+        let problem = note("P01", &estimated, 0.0);
+        assert_eq!((problem.code.as_str(), problem.severity), ("image_lag_estimated", Severity::Note));
         assert!(
-            told.fact.contains("-1.52 +- 0.35 s") && told.fact.contains("declared and used: 0.0 s"),
+            problem.fact.contains("-1.52 +- 0.35 s") && problem.fact.contains("declared and used: 0.0 s"),
             "{}",
-            told.fact
+            problem.fact
         );
-        let unknown = note("P01", &LagEstimate { verdict: LagVerdict::NotSharp, ..found }, 0.0);
+        let unknown = note("P01", &LagEstimate { verdict: LagVerdict::NotSharp, ..estimated }, 0.0);
         assert_eq!(unknown.code, "image_lag_unknown");
     }
 }

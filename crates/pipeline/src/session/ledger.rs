@@ -6,7 +6,7 @@ use ingest::card::{Card, CardFile, Patterns};
 use model::{FrameReason, FrameRow, Method, ResultRow};
 
 use super::frames::Session;
-use super::marks::SessionMarks;
+use super::session_marks::SessionMarks;
 use super::surest::Surest;
 use crate::study::{SessionDir, Study};
 
@@ -18,7 +18,7 @@ pub(super) fn ledger(session: &Session<'_>, marks: &SessionMarks, results: &[Res
     for file in counted.filter_map(|row| row.image.as_deref()) {
         *sizes.entry(file).or_default() += 1;
     }
-    let surest = Surest::of(session);
+    let surest = Surest::of_session(session);
     let with_data = session.frames.iter().enumerate().map(|(number, frame)| FrameRow {
         plate_sigma_mm: surest.sigma_mm(number),
         rank: surest.rank(number),

@@ -3,7 +3,7 @@
 use model::{InputSigma, Method, ObjectMarks, Problem, Severity, Stage, View};
 
 use super::frames::{Frame, Session, inputs_of};
-use super::marks::{MarkedObject, SessionMarks};
+use super::session_marks::{MarkedObject, SessionMarks};
 use crate::calibration::corrected_view;
 use crate::rims::Found;
 use crate::study::Object;
@@ -37,7 +37,7 @@ pub(super) fn marked<'a>(
     marks: &'a SessionMarks,
     problems: &mut Vec<Problem>,
 ) -> Vec<Marked<'a>> {
-    let mut found = Vec::new();
+    let mut all = Vec::new();
     for (number, frame) in session.frames.iter().enumerate() {
         for (rater, objects) in marks.of_image(&frame.image.file) {
             if frame.signals.pose.is_none() {
@@ -45,13 +45,13 @@ pub(super) fn marked<'a>(
                 continue;
             }
             let inputs = inputs_of(session.study, frame);
-            found.extend(objects.iter().map(|MarkedObject { marks, object, found }| {
+            all.extend(objects.iter().map(|MarkedObject { marks, object, found }| {
                 let found = *found;
                 Marked { session, number, frame, rater, object, marks, found, inputs }
             }));
         }
     }
-    found
+    all
 }
 
 fn unusable(session: &Session<'_>, frame: &Frame, rater: &str) -> Problem {

@@ -33,9 +33,9 @@ pub(super) const ON_ONE_IMAGE: [Method; 3] = [Method::Paper, Method::Ray, Method
 
 /// Sizes of single images, in the order that docs/results.md gives.
 pub(super) fn measure_all(marked: &[Marked<'_>], problems: &mut Vec<Problem>) -> Vec<Measurement> {
-    let mut found: Vec<Measurement> = marked.iter().flat_map(|marked| measure_one(marked, problems)).collect();
-    found.sort_by(|a, b| order(&a.row).cmp(&order(&b.row)));
-    found
+    let mut measurements: Vec<Measurement> = marked.iter().flat_map(|marked| measure_one(marked, problems)).collect();
+    measurements.sort_by(|a, b| order(&a.row).cmp(&order(&b.row)));
+    measurements
 }
 
 /// What the rows of one session are ordered by.
@@ -50,11 +50,13 @@ fn measure_one(marked: &Marked<'_>, problems: &mut Vec<Problem>) -> Vec<Measurem
     let sizes: Vec<(Method, Quantity, Result<Estimate, MeasureError>)> = wanted
         .filter_map(|method| Some((method, marked.view(method)?)))
         .flat_map(|(method, view)| {
-            let found = found::estimates(marked, &view, method);
-            found.into_iter().map(move |(quantity, size)| (method, quantity, size.map(|e| as_read(marked, &view, e))))
+            let estimates = found::estimates(marked, &view, method);
+            estimates
+                .into_iter()
+                .map(move |(quantity, size)| (method, quantity, size.map(|e| as_read(marked, &view, e))))
         })
         .collect();
-    tell(marked, &sizes, problems);
+    report_unmeasured(marked, &sizes, problems);
     let best = if wants_best { best_sizes(&sizes) } else { Vec::new() };
     // Methods that were not asked for are candidates for the best, and left out at the end.
     sizes
@@ -117,17 +119,17 @@ fn measurement(
 
 /// What could not be measured, each kind of it once; and objects whose marks give nothing at all. A height that nobody marked
 /// is no problem where another method does without.
-fn tell(
+fn report_unmeasured(
     marked: &Marked<'_>,
     sizes: &[(Method, Quantity, Result<Estimate, MeasureError>)],
     problems: &mut Vec<Problem>,
 ) {
     let measured: BTreeSet<Quantity> = sizes.iter().filter(|(.., s)| s.is_ok()).map(|(_, q, _)| *q).collect();
-    let mut told = BTreeSet::new();
+    let mut reported = BTreeSet::new();
     for (_, quantity, size) in sizes {
         if let Err(error) = size
             && !(*error == MeasureError::NoHeight && measured.contains(quantity))
-            && told.insert((*quantity, error.code()))
+            && reported.insert((*quantity, error.code()))
         {
             problems.push(unmeasured(marked, *quantity, error));
         }

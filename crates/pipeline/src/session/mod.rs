@@ -9,7 +9,6 @@ mod fuse;
 mod lag;
 mod ledger;
 mod marked;
-mod marks;
 mod measurement;
 mod naming;
 mod output;
@@ -18,6 +17,7 @@ mod problems;
 mod recording;
 mod road;
 mod row;
+mod session_marks;
 mod shown;
 mod surest;
 #[cfg(test)]
@@ -30,6 +30,6 @@ pub(crate) use prepared::Prepared;
 pub(crate) use problems::without_host;
 pub(crate) use recording::{BAD_MCAP, Recording, read as read_recording};
 pub(crate) use road::{
-    Measuring, SessionOptions, failed, ingest_problem, ingest_unkept, log_problems, run_session, tidy,
+    Measuring, SessionOptions, failed, finish_status, ingest_problem, ingest_without_state, log_problems, run_session,
 };
 pub(crate) use shown::{Shown, ShownImage, ShownMark, ShownObject};

@@ -20,13 +20,13 @@ pub(super) struct Naming {
 }
 
 impl Naming {
-    pub fn of(study: &Study, dir: &SessionDir) -> Self {
+    pub fn for_session(study: &Study, dir: &SessionDir) -> Self {
         Self { names: study.names.get(&dir.name).cloned().unwrap_or_default(), ..Self::default() }
     }
 
     /// The marks of one image, each under the name of its object. Where two get the same name, what a person calls so comes
     /// first, then the likelier rim; the other one becomes a problem at `place`.
-    pub fn named(&mut self, marks: Marks, place: &str, problems: &mut Vec<Problem>) -> Marks {
+    pub fn rename(&mut self, marks: Marks, place: &str, problems: &mut Vec<Problem>) -> Marks {
         let mut by_object: BTreeMap<String, (String, ObjectMarks, Option<Found>)> = BTreeMap::new();
         for (marks, found) in marks {
             self.met |= number_of_found(&marks.object).is_some();
@@ -110,7 +110,7 @@ mod tests {
 
     fn named(naming: &mut Naming, marks: Marks) -> (Vec<(String, Option<f64>)>, Vec<Problem>) {
         let mut problems = Vec::new();
-        let named = naming.named(marks, "cards/S1/a.jpg", &mut problems);
+        let named = naming.rename(marks, "cards/S1/a.jpg", &mut problems);
         let short = |(marks, found): (ObjectMarks, Option<Found>)| (marks.object, found.map(|found| found.confidence));
         (named.into_iter().map(short).collect(), problems)
     }

@@ -43,9 +43,9 @@ pub(crate) fn read(study: &Study, mcap: &Path, name: &str) -> Result<Recording, 
     let lag_s = study.spec.time.image_lag_s;
     let times: Vec<_> = images.iter().map(|image| image.time.plus_seconds(lag_s)).collect();
     let settings = study.spec.signals.reading_settings();
-    let found = signals::at_images(&mut reader, &times, &settings).map_err(refuse)?;
+    let sensed = signals::at_images(&mut reader, &times, &settings).map_err(refuse)?;
     let mut problems = metadata.problems.clone();
-    problems.extend(found.calibration.and_then(|calibration| calibration_note(study, name, &calibration)));
+    problems.extend(sensed.calibration.and_then(|calibration| calibration_note(study, name, &calibration)));
     // A survey has no pictures; the lag is a note, by which nothing is lost.
     if study.spec.time.estimate_lag && !metadata.is_survey() {
         let estimate = lag::estimate(&mut reader, &images).map_err(refuse)?;
@@ -53,7 +53,7 @@ pub(crate) fn read(study: &Study, mcap: &Path, name: &str) -> Result<Recording, 
     }
     Ok(Recording {
         images,
-        readings: found.readings,
+        readings: sensed.readings,
         dropped: metadata.dropped_images,
         problems,
         inputs_sha256: metadata.inputs_sha256,

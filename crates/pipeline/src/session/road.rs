@@ -6,18 +6,18 @@ use ingest::IngestError;
 use model::{FrameReason, Problem, ResultRow, SessionStatus, Severity, Stage};
 
 use super::auto::AutoMarks;
-use super::bench;
+use super::bench::bench_session;
 use super::card_progress::CardProgress;
 use super::frames::Session;
 use super::fuse::fuse;
 use super::ledger::{ledger, ledger_of_failed};
 use super::marked::marked;
-use super::marks::SessionMarks;
 use super::measurement::measure_all;
 use super::output::SessionOutput;
 use super::prepared::Prepared;
 use super::problems::without_host;
 use super::recording::{Recording, read as read_recording};
+use super::session_marks::SessionMarks;
 use super::shown::Shown;
 use crate::reporter::Reporter;
 use crate::stop::Stop;
@@ -47,19 +47,20 @@ pub(crate) fn run_session(
     options: &SessionOptions,
     reporter: &dyn Reporter,
 ) -> SessionOutput {
-    let mut output = unkept(study, dir, options, reporter).unwrap_or_else(|problem| failed(study, dir, problem));
-    tidy(&mut output, study, &options.mcap_dir);
+    let mut output =
+        run_without_state(study, dir, options, reporter).unwrap_or_else(|problem| failed(study, dir, problem));
+    finish_status(&mut output, study, &options.mcap_dir);
     output
 }
 
-fn unkept(
+fn run_without_state(
     study: &Study,
     dir: &SessionDir,
     options: &SessionOptions,
     reporter: &dyn Reporter,
 ) -> Result<SessionOutput, Problem> {
     let prepared = Prepared::new(study, dir, &options.program)?;
-    let mcap = ingest_unkept(&prepared, options, reporter)?;
+    let mcap = ingest_without_state(&prepared, options, reporter)?;
     reporter.stage(&dir.name, Stage::Signals);
     let recording = read_recording(study, &mcap, &dir.name)?;
     let measuring = Measuring { study, dir, prepared: &prepared, is_bench: options.is_bench, reporter };
@@ -67,7 +68,7 @@ fn unkept(
 }
 
 /// Ingests or surveys a card; gives the MCAP file.
-pub(crate) fn ingest_unkept(
+pub(crate) fn ingest_without_state(
     prepared: &Prepared,
     options: &SessionOptions,
     reporter: &dyn Reporter,
@@ -93,7 +94,7 @@ pub(crate) fn failed(study: &Study, dir: &SessionDir, problem: Problem) -> Sessi
 }
 
 /// Takes out what depends on where things lie, and logs the problems.
-pub(crate) fn tidy(output: &mut SessionOutput, study: &Study, mcap_dir: &Path) {
+pub(crate) fn finish_status(output: &mut SessionOutput, study: &Study, mcap_dir: &Path) {
     for problem in &mut output.status.problems {
         problem.fact = without_host(&problem.fact, study, mcap_dir);
     }
@@ -137,9 +138,9 @@ impl Measuring<'_> {
         self.reporter.stage(&dir.name, Stage::Measure);
         let marked = marked(&session, &marks, &mut output.status.problems);
         if self.is_bench {
-            output.bench = bench::of(&session, &marked);
+            output.bench = bench_session(&session, &marked);
         }
-        output.shown = Shown::of(&prepared.camera, &marked);
+        output.shown = Shown::from_marked(&prepared.camera, &marked);
         let mut measurements = measure_all(&marked, &mut output.status.problems);
         let fused = fuse(study, &marked, &mut measurements);
         let asked = |row: &ResultRow| study.spec.measure.methods.contains(&row.method);

@@ -57,14 +57,14 @@ const HIDDEN: f64 = 4.0;
 
 impl Shown {
     /// `camera`: of the recorded pictures.
-    pub(super) fn of(camera: &Camera, marked: &[Marked<'_>]) -> Self {
+    pub(super) fn from_marked(camera: &Camera, marked: &[Marked<'_>]) -> Self {
         let mut shown = Self::default();
         for marked in marked {
             let Some(view) = view_of(camera, marked) else { continue };
             shown.camera.get_or_insert_with(|| CameraSpec::from_camera("recorded", view.camera()));
             let marks_camera = &marked.session.marks_camera;
             let marks = marked.marks.marks.iter().filter_map(|mark| {
-                ShownMark::of(mark, marked.found.is_some(), |point| recorded(camera, marks_camera, point))
+                ShownMark::from_mark(mark, marked.found.is_some(), |point| recorded(camera, marks_camera, point))
             });
             let object = ShownObject {
                 object: marked.marks.object.clone(),
@@ -102,7 +102,7 @@ fn recorded(camera: &Camera, marks_camera: &Camera, point: Point2<f64>) -> Optio
 
 impl ShownMark {
     /// None where the recorded picture does not show it.
-    fn of(mark: &Mark, is_found: bool, recorded: impl Fn(Point2<f64>) -> Option<Point2<f64>>) -> Option<Self> {
+    fn from_mark(mark: &Mark, is_found: bool, recorded: impl Fn(Point2<f64>) -> Option<Point2<f64>>) -> Option<Self> {
         let points = mark.points_px();
         let kept = points.iter().step_by(points.len().div_ceil(MOST_POINTS).max(1));
         let tenths = |point: Point2<f64>| [point.x, point.y].map(|c| (c * 10.0).round() / 10.0);
@@ -139,12 +139,12 @@ mod tests {
     use super::*;
 
     fn ring(from: u32, to: u32) -> Vec<Point2<f64>> {
-        let at = |i: u32| f64::from(i).to_radians().sin_cos();
-        (from..to).map(|i| Point2::new(300.0 + 200.0 * at(i).1, 250.0 + 100.0 * at(i).0)).collect()
+        let sin_cos = |i: u32| f64::from(i).to_radians().sin_cos();
+        (from..to).map(|i| Point2::new(300.0 + 200.0 * sin_cos(i).1, 250.0 + 100.0 * sin_cos(i).0)).collect()
     }
 
     fn shown(points_px: Vec<Point2<f64>>, is_found: bool) -> ShownMark {
-        ShownMark::of(&Mark::Outline { feature: Feature::Rim, points_px }, is_found, Some).unwrap()
+        ShownMark::from_mark(&Mark::Outline { feature: Feature::Rim, points_px }, is_found, Some).unwrap()
     }
 
     #[test]
@@ -169,8 +169,8 @@ mod tests {
     #[test]
     fn what_the_recorded_picture_does_not_show_is_left_out() {
         let line = Mark::Line { quantity: Quantity::Diameter, ends_px: [Point2::new(1.0, 2.0), Point2::new(3.0, 4.0)] };
-        assert!(ShownMark::of(&line, false, |point| (point.x < 2.0).then_some(point)).is_none());
-        let mark = ShownMark::of(&line, false, Some).unwrap();
+        assert!(ShownMark::from_mark(&line, false, |point| (point.x < 2.0).then_some(point)).is_none());
+        let mark = ShownMark::from_mark(&line, false, Some).unwrap();
         assert_eq!((mark.quantity, mark.closed), (Some(Quantity::Diameter), false));
     }
 }

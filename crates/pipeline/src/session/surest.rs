@@ -20,7 +20,7 @@ const PLATE_RADIUS_MM: f64 = 100.0;
 const AROUND: u32 = 12;
 
 impl Surest {
-    pub(super) fn of(session: &Session<'_>) -> Self {
+    pub(super) fn of_session(session: &Session<'_>) -> Self {
         let selected = session.frames.iter().enumerate().filter(|(_, f)| f.signals.reason == FrameReason::Selected);
         let mut sigmas: Vec<(usize, f64)> =
             selected.filter_map(|(number, frame)| Some((number, plate_sigma_mm(session, frame)?))).collect();
@@ -52,7 +52,7 @@ fn plate_sigma_mm(session: &Session<'_>, frame: &Frame) -> Option<f64> {
     let points_px = (0..AROUND).map(rim).collect::<Option<Vec<_>>>()?;
     let marks = ObjectMarks { object: String::new(), marks: vec![Mark::Outline { feature: Feature::Rim, points_px }] };
     let plate = Container { kind: Kind::Plate, shape: Shape::Circle, rim_height_mm: None, wall: None };
-    let found = estimate(&view, Method::Ray, &plate, &marks, &inputs_of(session.study, frame));
-    let (_, size) = found.into_iter().next()?;
+    let sizes = estimate(&view, Method::Ray, &plate, &marks, &inputs_of(session.study, frame));
+    let (_, size) = sizes.into_iter().next()?;
     Some(size.ok()?.sigma.total_mm * penalty_of(session.study, frame).sqrt())
 }

@@ -9,8 +9,8 @@ use super::range::{Range, cone};
 use super::settings::{PoseSettings, RangeCone};
 
 /// What the sensors say about one image; none when its time exists twice.
-pub(super) fn signals(found: Option<(Option<Gravity>, Range)>, settings: &PoseSettings) -> FrameSignals {
-    match found {
+pub(super) fn signals(sensed: Option<(Option<Gravity>, Range)>, settings: &PoseSettings) -> FrameSignals {
+    match sensed {
         Some((gravity, range)) => of_readings(gravity, range, settings),
         None => FrameSignals {
             reason: FrameReason::AmbiguousTime,
@@ -129,23 +129,23 @@ mod tests {
         PoseSettings::with_mount(21_f64.to_radians())
     }
 
-    fn said(specific_force_g: Vector3<f64>, motion_rms_g: f64, range_mm: Option<f64>) -> FrameSignals {
+    fn signals_at(specific_force_g: Vector3<f64>, motion_rms_g: f64, range_mm: Option<f64>) -> FrameSignals {
         of_readings(gravity(specific_force_g, motion_rms_g), range(range_mm), &settings())
     }
 
     #[test]
     fn camera_pitch_is_sensor_pitch_plus_the_mount_offset() {
-        let found = said(at_rest(34.0, 0.0), 0.005, Some(580.0));
-        let (pitch, roll) = found.pitch_roll_rad.unwrap();
+        let judged = signals_at(at_rest(34.0, 0.0), 0.005, Some(580.0));
+        let (pitch, roll) = judged.pitch_roll_rad.unwrap();
         assert!((pitch.to_degrees() - 55.0).abs() < 1e-9 && roll.abs() < 1e-12);
-        assert_eq!(found.reason, FrameReason::Selected);
-        assert!((found.pose.unwrap().range_mm() - 580.0).abs() < 1e-12);
+        assert_eq!(judged.reason, FrameReason::Selected);
+        assert!((judged.pose.unwrap().range_mm() - 580.0).abs() < 1e-12);
     }
 
     #[test]
     fn level_head_still_looks_down_by_the_mount_offset() {
         let upright = Vector3::new(0.0, -1.0, 0.0);
-        let (pitch, _) = said(upright, 0.0, Some(500.0)).pitch_roll_rad.unwrap();
+        let (pitch, _) = signals_at(upright, 0.0, Some(500.0)).pitch_roll_rad.unwrap();
         assert!((pitch.to_degrees() - 21.0).abs() < 1e-9);
     }
 
@@ -163,12 +163,12 @@ mod tests {
     fn the_first_reason_that_applies_is_given() {
         let good = at_rest(34.0, 0.0);
         assert_eq!(of_readings(None, NO_RANGE, &settings()).reason, FrameReason::NoAcceleration);
-        assert_eq!(said(good * 1.2, 0.005, Some(580.0)).reason, FrameReason::BadGravity);
-        assert_eq!(said(good, 0.005, None).reason, FrameReason::NoRange);
+        assert_eq!(signals_at(good * 1.2, 0.005, Some(580.0)).reason, FrameReason::BadGravity);
+        assert_eq!(signals_at(good, 0.005, None).reason, FrameReason::NoRange);
         let looking_up = Rotation3::from_axis_angle(&Vector3::x_axis(), -1.2) * good;
-        assert_eq!(said(looking_up, 0.005, Some(580.0)).reason, FrameReason::NotBelowHorizon);
-        assert_eq!(said(good, 0.2, Some(580.0)).reason, FrameReason::Moving);
-        assert_eq!(said(at_rest(20.0, 0.0), 0.005, Some(580.0)).reason, FrameReason::PitchOutsideTarget);
+        assert_eq!(signals_at(looking_up, 0.005, Some(580.0)).reason, FrameReason::NotBelowHorizon);
+        assert_eq!(signals_at(good, 0.2, Some(580.0)).reason, FrameReason::Moving);
+        assert_eq!(signals_at(at_rest(20.0, 0.0), 0.005, Some(580.0)).reason, FrameReason::PitchOutsideTarget);
     }
 
     #[test]
@@ -179,37 +179,37 @@ mod tests {
             (at_rest(34.0, 0.0), 0.2, Some(580.0)),
             (at_rest(34.0, 0.0), 0.005, None),
         ] {
-            let found = said(force, motion, range);
-            assert_eq!(found.pose.is_some(), found.reason.has_pose(), "{:?}", found.reason);
+            let judged = signals_at(force, motion, range);
+            assert_eq!(judged.pose.is_some(), judged.reason.has_pose(), "{:?}", judged.reason);
         }
     }
 
     #[test]
     fn a_time_that_exists_twice_says_nothing() {
-        let found = signals(None, &settings());
-        assert_eq!((found.reason, found.pose, found.gravity_mg), (FrameReason::AmbiguousTime, None, None));
+        let judged = signals(None, &settings());
+        assert_eq!((judged.reason, judged.pose, judged.gravity_mg), (FrameReason::AmbiguousTime, None, None));
     }
 
     #[test]
     fn flags_tell_and_drop_nothing() {
         let edge = gravity(at_rest(34.0, 0.0), 0.005).map(|g| Gravity { one_sided: true, ..g });
         let step = Range { step: true, held: true, ..range(Some(580.0)) };
-        let found = of_readings(edge, step, &settings());
-        assert_eq!(found.flags, [FrameFlag::GravityEdge, FrameFlag::RangeHeld, FrameFlag::RangeStep]);
-        assert_eq!((found.reason, found.range_distinct), (FrameReason::Selected, 40));
-        assert!(said(at_rest(34.0, 0.0), 0.005, Some(580.0)).flags.is_empty());
+        let judged = of_readings(edge, step, &settings());
+        assert_eq!(judged.flags, [FrameFlag::GravityEdge, FrameFlag::RangeHeld, FrameFlag::RangeStep]);
+        assert_eq!((judged.reason, judged.range_distinct), (FrameReason::Selected, 40));
+        assert!(signals_at(at_rest(34.0, 0.0), 0.005, Some(580.0)).flags.is_empty());
     }
 
     #[test]
     fn the_cone_is_corrected_when_declared_and_never_for_the_paper() {
-        let plain = said(at_rest(34.0, 0.0), 0.005, Some(580.0));
+        let plain = signals_at(at_rest(34.0, 0.0), 0.005, Some(580.0));
         assert_eq!((plain.cone_pose, plain.pose_for(Method::Ray)), (None, plain.pose));
         let mut declared = settings();
         declared.range_cone = RangeCone::TiltedPlane;
-        let found = of_readings(gravity(at_rest(34.0, 0.0), 0.005), range(Some(580.0)), &declared);
-        assert_eq!((found.pose, found.range_mm), (plain.pose, plain.range_mm), "the reading stays as it was");
-        assert_eq!(found.pose_for(Method::Paper), plain.pose);
-        let ratio = 580.0 / found.pose_for(Method::Ray).unwrap().range_mm();
+        let judged = of_readings(gravity(at_rest(34.0, 0.0), 0.005), range(Some(580.0)), &declared);
+        assert_eq!((judged.pose, judged.range_mm), (plain.pose, plain.range_mm), "the reading stays as it was");
+        assert_eq!(judged.pose_for(Method::Paper), plain.pose);
+        let ratio = 580.0 / judged.pose_for(Method::Ray).unwrap().range_mm();
         assert!((ratio - cone::reading_over_axis(55_f64.to_radians()).unwrap()).abs() < 1e-12);
         // 11 degrees below the horizon: part of the cone looks over the table.
         let up = Rotation3::from_axis_angle(&Vector3::x_axis(), -10_f64.to_radians()) * Vector3::new(0.0, -1.0, 0.0);

@@ -64,7 +64,7 @@ pub(super) fn half_window_s(cutoff_hz: f64) -> f64 {
 /// would be gravity of another moment, and the line is not: a steady turn keeps zero phase up to the edge. It works on true
 /// sample times, so holes and uneven steps need no resampling; samples beyond a gap are left out ([`BRIDGE_SD`]). Samples
 /// far from the line (a bump) count less, by Huber's weights on the length of the residual.
-pub(super) fn at(time: UtcNs, samples: &[(UtcNs, Vector3<f64>)], cutoff_hz: f64) -> Option<Gravity> {
+pub(super) fn gravity_at(time: UtcNs, samples: &[(UtcNs, Vector3<f64>)], cutoff_hz: f64) -> Option<Gravity> {
     let sd_s = kernel_sd_s(cutoff_hz);
     let samples = without_gaps(time, samples, BRIDGE_SD * sd_s);
     let (first, last) = (samples.first()?.0, samples.last()?.0);
@@ -104,7 +104,7 @@ fn robust_line(time: UtcNs, samples: &[(UtcNs, Vector3<f64>)], kernel: &[f64]) -
     let mut weights = kernel.to_vec();
     let mut line = Line::fit(&seconds, samples, &weights)?;
     for _ in 0..ROUNDS {
-        let residuals = samples.iter().zip(&seconds).map(|((_, a), s)| (a - line.at(*s)).norm());
+        let residuals = samples.iter().zip(&seconds).map(|((_, a), s)| (a - line.value_at(*s)).norm());
         let lengths: Vec<f64> = residuals.collect();
         let limit = HUBER_SD * median(lengths.clone()) / MEDIAN_LENGTH_SD;
         for ((weight, kernel), length) in weights.iter_mut().zip(kernel).zip(&lengths) {

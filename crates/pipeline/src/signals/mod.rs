@@ -66,14 +66,15 @@ impl FrameSignals {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
     /// None when the image's time exists twice.
-    found: Option<(Option<Gravity>, Range)>,
+    #[serde(rename = "found")]
+    sensed: Option<(Option<Gravity>, Range)>,
 }
 
 impl Reading {
     /// The pose, and the reason that the ledger gives.
     #[must_use]
     pub fn judge(&self, settings: &PoseSettings) -> FrameSignals {
-        frame::signals(self.found, settings)
+        frame::signals(self.sensed, settings)
     }
 }
 
@@ -118,10 +119,11 @@ fn evaluate<E>(
     let watches = settings.gravity_calibration == GravityCalibrate::Report;
     let half_gravity_s = gravity::half_window_s(settings.gravity_cutoff_hz);
     let half_range_s = 0.5 * settings.range_window_s;
-    let gravity_at = |time, samples: &[(UtcNs, Vector3<f64>)]| gravity::at(time, samples, settings.gravity_cutoff_hz);
+    let gravity_at =
+        |time, samples: &[(UtcNs, Vector3<f64>)]| gravity::gravity_at(time, samples, settings.gravity_cutoff_hz);
     let mut accelerations = Windows::new(image_times, half_gravity_s, gravity_at);
-    let range_of = |_, samples: &[(UtcNs, f64)]| range::of(samples, settings);
-    let mut ranges = Windows::new(image_times, half_range_s, range_of);
+    let range_in = |_, samples: &[(UtcNs, f64)]| range::range_from(samples, settings);
+    let mut ranges = Windows::new(image_times, half_range_s, range_in);
     stream(&mut |sample| {
         if watches {
             still.push_sample(&sample);
@@ -129,14 +131,14 @@ fn evaluate<E>(
         match sample {
             Sample::Acceleration { time, g } => {
                 let force_g = Vector3::from(g);
-                accelerations.push(time, applied.map_or(force_g, |calibration| calibration.of(&force_g)));
+                accelerations.push(time, applied.map_or(force_g, |calibration| calibration.apply(&force_g)));
             }
             Sample::Range { time, mm } => ranges.push(time, mm),
         }
     })?;
     let is_ambiguous = |time: &UtcNs| timeline.is_ambiguous(*time, half_gravity_s.max(half_range_s));
-    let found = accelerations.finish().into_iter().zip(ranges.finish()).zip(image_times);
-    let readings = found.map(|(found, time)| Reading { found: (!is_ambiguous(time)).then_some(found) }).collect();
+    let sensed = accelerations.finish().into_iter().zip(ranges.finish()).zip(image_times);
+    let readings = sensed.map(|(sensed, time)| Reading { sensed: (!is_ambiguous(time)).then_some(sensed) }).collect();
     let calibration = (applies || watches).then(|| still.calibration());
     Ok(SessionReadings { readings, calibration })
 }

@@ -90,16 +90,16 @@ pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
 /// sessions get the same.
 fn folders(dir: &Path) -> Result<Vec<(String, PathBuf)>, StudyError> {
     let refuse = |source| StudyError::List { path: dir.to_owned(), source };
-    let mut found = Vec::new();
+    let mut named = Vec::new();
     for entry in std::fs::read_dir(dir).map_err(refuse)? {
         let entry = entry.map_err(refuse)?;
         let name = ingest::card::name_text(&entry.file_name());
         // Links are followed here, so that a linked card is told of when it leaves the study, or leads nowhere because a disk
         // is not there now, and not passed over.
         if std::fs::metadata(entry.path()).map_or(true, |metadata| metadata.is_dir()) && !name.starts_with('.') {
-            found.push((name, entry.path()));
+            named.push((name, entry.path()));
         }
     }
-    found.sort();
-    Ok(found)
+    named.sort();
+    Ok(named)
 }

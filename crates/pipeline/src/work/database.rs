@@ -94,9 +94,9 @@ pub(super) fn connect(path: &Path) -> Result<Connection, Refused> {
     // A rollback journal, not a write-ahead log: work folders lie on network file systems too.
     connection.pragma_update(None, "journal_mode", "DELETE")?;
     connection.pragma_update(None, "synchronous", "FULL")?;
-    let found: String = connection.query_row("PRAGMA quick_check(1)", [], |row| row.get(0))?;
-    if found != "ok" {
-        return Err(Refused::Unusable(format!("the state file is damaged ({found})")));
+    let verdict: String = connection.query_row("PRAGMA quick_check(1)", [], |row| row.get(0))?;
+    if verdict != "ok" {
+        return Err(Refused::Unusable(format!("the state file is damaged ({verdict})")));
     }
     match version(&connection)? {
         0 => {

@@ -57,7 +57,8 @@ impl WorkFolder {
 
     /// Deletes what is there of other sessions than these.
     pub fn prune(&self, sessions: &[&str]) -> Result<(), WorkError> {
-        for session in self.state.all()?.into_keys().filter(|session| !sessions.contains(&session.as_str())) {
+        for session in self.state.kept_by_session()?.into_keys().filter(|session| !sessions.contains(&session.as_str()))
+        {
             let annotated = self.mcap_dir.with_file_name(ANNOTATED).join(annotated_name(&session));
             remove_file(&annotated)?;
             remove_file(&self.mcap(&session))?;

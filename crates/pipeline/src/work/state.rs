@@ -73,7 +73,7 @@ impl State {
     }
 
     /// What is kept, by session.
-    pub fn all(&self) -> Result<BTreeMap<String, Kept>, WorkError> {
+    pub fn kept_by_session(&self) -> Result<BTreeMap<String, Kept>, WorkError> {
         self.with(|db| {
             let mut kept: BTreeMap<String, Kept> = BTreeMap::new();
             let columns = "session, stage, key, fingerprint, made_utc, seconds, output_sha256, status";
@@ -100,13 +100,13 @@ impl State {
 
     /// What a stage of a session gave; none when it is not what was written.
     pub fn output(&self, session: &str, stage: Stage) -> Result<Option<String>, WorkError> {
-        let found: Option<(String, String)> = self.with(|db| {
+        let stored: Option<(String, String)> = self.with(|db| {
             let query = "SELECT json, output_sha256 FROM stage JOIN output USING (session, stage) \
                          WHERE session = ?1 AND stage = ?2";
-            let found = db.query_row(query, [session, stage.code()], |row| Ok((row.get(0)?, row.get(1)?)));
-            Ok(unless_odd(found.optional())?.flatten())
+            let row = db.query_row(query, [session, stage.code()], |row| Ok((row.get(0)?, row.get(1)?)));
+            Ok(unless_odd(row.optional())?.flatten())
         })?;
-        let good = found.filter(|(output, sha256)| sha256_of_bytes(output.as_bytes()) == *sha256);
+        let good = stored.filter(|(output, sha256)| sha256_of_bytes(output.as_bytes()) == *sha256);
         Ok(good.map(|(output, _)| output))
     }
 
@@ -148,8 +148,8 @@ impl State {
     /// What was last written as results.
     pub fn written(&self) -> Result<Option<Written>, WorkError> {
         self.with(|db| {
-            let found = |row: &rusqlite::Row<'_>| Ok(Written { key: row.get(0)?, files: row.get(1)? });
-            Ok(unless_odd(db.query_row("SELECT key, files FROM written", [], found).optional())?.flatten())
+            let written = |row: &rusqlite::Row<'_>| Ok(Written { key: row.get(0)?, files: row.get(1)? });
+            Ok(unless_odd(db.query_row("SELECT key, files FROM written", [], written).optional())?.flatten())
         })
     }
 

@@ -43,7 +43,7 @@ impl Summary {
     }
 }
 
-/// The number of images that the run found, and of those that are selected.
+/// The number of all images of the run, and of those that are selected.
 fn images(results: &Results) -> (usize, usize) {
     let of_status = |count: fn(&SessionStatus) -> usize| results.metadata.sessions.iter().map(count).sum::<usize>();
     results.flow.as_ref().map_or_else(

@@ -35,7 +35,7 @@ pub(super) fn containers(seen: &[Sighting]) -> Vec<Track> {
         for ((sighting, link), number) in image.iter().zip(links(image, &tracks, seen)).zip(first..) {
             match link {
                 Some(at) => tracks[at].add(number, sighting),
-                None => tracks.push(Track::of(number, sighting)),
+                None => tracks.push(Track::from_sighting(number, sighting)),
             }
         }
         first += image.len();
@@ -47,7 +47,7 @@ pub(super) fn containers(seen: &[Sighting]) -> Vec<Track> {
 fn links(image: &[Sighting], tracks: &[Track], seen: &[Sighting]) -> Vec<Option<usize>> {
     let mut costs: Vec<(f64, usize, usize)> = Vec::new();
     for (i, sighting) in image.iter().enumerate() {
-        let alone = Track::of(i, sighting);
+        let alone = Track::from_sighting(i, sighting);
         costs.extend(tracks.iter().enumerate().filter_map(|(t, track)| {
             let last = seen.get(*track.members.last()?)?;
             let far = far(sighting, last)?;
@@ -94,7 +94,7 @@ fn far(a: &Sighting, b: &Sighting) -> Option<f64> {
 /// one image showed it with an odd size, or since it was not clear then. The likeliest pair comes first.
 fn joined(mut tracks: Vec<Track>, seen: &[Sighting]) -> Vec<Track> {
     while tracks.len() <= MOST_TO_JOIN {
-        let pairs = Pairs::of(&tracks);
+        let pairs = Pairs::between(&tracks);
         let is_join = |&&(least, a, b): &&(f64, usize, usize)| {
             !pairs.are_two[a][b] && pairs.is_clear(least, a, b) && !is_leap(&tracks[a], &tracks[b], seen)
         };
@@ -117,7 +117,7 @@ struct Pairs {
 }
 
 impl Pairs {
-    fn of(tracks: &[Track]) -> Self {
+    fn between(tracks: &[Track]) -> Self {
         let unlike = tracks.iter().map(|a| tracks.iter().map(|b| a.unlike(b, SAME_SIZE)).collect()).collect();
         let are_two = tracks.iter().map(|a| tracks.iter().map(|b| are_two(a, b)).collect()).collect();
         let mut pairs = Self { unlike, are_two, by_cost: Vec::new() };

@@ -1,7 +1,7 @@
 //! Rims found in the selected images of a session, named so that one container has one name.
 
+mod appearance;
 mod link;
-mod looks;
 mod named;
 mod track;
 
@@ -22,8 +22,8 @@ use crate::labelme::{self, AutoRim};
 use crate::rims::{self, Found, Rim, find_rims_of};
 use crate::stop::Stop;
 use crate::study::{AUTO, SessionDir, Study, marks_in, number_of_found, stem_of};
-use looks::Looks;
-use named::{Seen, named};
+use appearance::Appearance;
+use named::{Seen, name_containers};
 use track::Sighting;
 
 /// What a search gave.
@@ -85,7 +85,7 @@ impl Search<'_> {
                 Err(fact) => auto.problems.push(self.not_searched(frame, fact)),
             }
         }
-        auto.by_image = named(seen, &taken, self.study.spec.marks.min_diameter_mm);
+        auto.by_image = name_containers(seen, &taken, self.study.spec.marks.min_diameter_mm);
         Ok(auto)
     }
 
@@ -112,11 +112,11 @@ impl Search<'_> {
         let picture = Picture::decode(bytes).map_err(|error| error.to_string())?;
         let rims = find_rims_of(&picture, &view, &self.study.spec.marks.shapes).map_err(|error| error.to_string())?;
         let sure = rims.iter().filter(|rim| rim.confidence >= self.study.spec.marks.min_confidence);
-        Ok(sure.filter_map(|rim| self.seen(number, frame, &view, rim)).collect())
+        Ok(sure.filter_map(|rim| self.seen_rim(number, frame, &view, rim)).collect())
     }
 
     /// None of a rim that has no size, or that the marks camera would not show.
-    fn seen(&self, number: usize, frame: &Frame, view: &View, rim: &Rim) -> Option<Seen> {
+    fn seen_rim(&self, number: usize, frame: &Frame, view: &View, rim: &Rim) -> Option<Seen> {
         let (camera, marks_camera) = (&self.prepared.camera, &self.prepared.marks_camera.1);
         let points_px: Vec<[f64; 2]> =
             rim.points_px.iter().filter_map(|point| in_marked_picture(camera, marks_camera, *point)).collect();
@@ -150,7 +150,7 @@ impl Search<'_> {
             relative_sigma: sigma_within_session_mm(sigma) / measured.predicted_mm,
             camera_mm,
             at_mm: rim.on_table_mm.0,
-            looks: Looks { plate: rim.plate_height, bowl: rim.height, plate_log_odds: rim.plate_log_odds },
+            appearance: Appearance { plate: rim.plate_height, bowl: rim.height, plate_log_odds: rim.plate_log_odds },
         })
     }
 

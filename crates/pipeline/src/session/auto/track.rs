@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use model::{Kind, UtcNs};
 
-use super::looks::{Looks, Together};
+use super::appearance::{Appearance, PooledAppearance};
 
 /// A rim as far as it can be recognised.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,7 +22,7 @@ pub(super) struct Sighting {
     pub camera_mm: f64,
     /// Its centre on the plane Z = 0: world X, Y, from the point of the table under the camera.
     pub at_mm: [f64; 2],
-    pub looks: Looks,
+    pub appearance: Appearance,
 }
 
 /// What it costs that a container may as well be a plate as a bowl: -2 ln 1/2.
@@ -39,7 +39,7 @@ pub(super) struct Track {
     pub members: Vec<usize>,
     /// Its images.
     pub images: BTreeSet<usize>,
-    together: Together,
+    pooled: PooledAppearance,
     /// As the first one has it.
     narrowness: Option<f64>,
     /// Sums over its sightings, by weight: of weights, of diameters on Z = 0, and of those over the camera's height.
@@ -49,11 +49,11 @@ pub(super) struct Track {
 }
 
 impl Track {
-    pub fn of(number: usize, sighting: &Sighting) -> Self {
+    pub fn from_sighting(number: usize, sighting: &Sighting) -> Self {
         let mut track = Self {
             members: Vec::new(),
             images: BTreeSet::new(),
-            together: Together::default(),
+            pooled: PooledAppearance::default(),
             narrowness: sighting.narrowness,
             weight: 0.0,
             across_mm: 0.0,
@@ -67,7 +67,7 @@ impl Track {
         let weight = sighting.relative_sigma.max(LEAST_SIGMA).powi(-2);
         self.members.push(number);
         self.images.insert(sighting.image);
-        self.together.add(&sighting.looks);
+        self.pooled.add(&sighting.appearance);
         self.weight += weight;
         self.across_mm += weight * sighting.across_mm;
         self.across_per_camera += weight * sighting.across_mm / sighting.camera_mm;
@@ -77,15 +77,15 @@ impl Track {
         self.members.extend(other.members);
         self.members.sort_unstable();
         self.images.extend(other.images);
-        self.together.append(&other.together);
+        self.pooled.append(&other.pooled);
         self.weight += other.weight;
         self.across_mm += other.across_mm;
         self.across_per_camera += other.across_per_camera;
     }
 
     /// What it is by all of its images.
-    pub fn looks(&self) -> Option<Looks> {
-        self.together.looks()
+    pub fn appearance(&self) -> Option<Appearance> {
+        self.pooled.appearance()
     }
 
     /// Mean diameter if the rim is at this height.
@@ -119,19 +119,19 @@ impl Track {
     ///
     /// One container has one height, so sizes are compared at the height that both give together: what is unknown of it
     /// hardly matters then, since it makes both wrong alike. Whether it is a plate or a bowl is left open; what is unlikely by
-    /// the looks of both costs as much as it is unlikely.
+    /// the appearance of both costs as much as it is unlikely.
     pub fn unlike(&self, other: &Self, most: f64) -> Option<f64> {
         if !self.is_shaped_as(other, most) {
             return None;
         }
-        let mut both = self.together.clone();
-        both.append(&other.together);
-        let looks = both.looks()?;
+        let mut both = self.pooled.clone();
+        both.append(&other.pooled);
+        let appearance = both.appearance()?;
         let sigma = self.relative_sigma().hypot(other.relative_sigma());
         let as_kind = |kind: Kind| {
-            let height_mm = looks.height(kind).mm;
+            let height_mm = appearance.height(kind).mm;
             let size = (self.diameter_mm(height_mm) / other.diameter_mm(height_mm)).ln() / sigma;
-            let against = if kind == Kind::Plate { -looks.plate_log_odds } else { looks.plate_log_odds };
+            let against = if kind == Kind::Plate { -appearance.plate_log_odds } else { appearance.plate_log_odds };
             let unlike = size * size + 2.0 * against.exp().ln_1p();
             (unlike <= most * most + EITHER).then_some(unlike)
         };

@@ -73,8 +73,8 @@ fn diameter_row(pictures: &[&Marked<'_>], templates: &[&ResultRow], height: &Joi
     for (number, m) in pictures.iter().enumerate() {
         let view = m.view(Method::Joint)?;
         let known = Container { rim_height_mm: Some(height.height_mm), ..m.object.container };
-        let found = estimate(&view, Method::Ray, &known, m.marks, &m.inputs);
-        let diameter = found.into_iter().find(|(quantity, _)| *quantity == Quantity::Diameter);
+        let sizes = estimate(&view, Method::Ray, &known, m.marks, &m.inputs);
+        let diameter = sizes.into_iter().find(|(quantity, _)| *quantity == Quantity::Diameter);
         let Some((_, Ok(diameter))) = diameter else { continue };
         shares.push(Share {
             value_mm: diameter.measured.predicted_mm,

@@ -34,9 +34,9 @@ pub(super) fn fuse(study: &Study, marked: &[Marked<'_>], measurements: &mut [Mea
         if method == Method::Best {
             continue; // the best of the fused sizes is taken below
         }
-        let found = row_of(measurements, &group, Level::Fused);
-        weights.extend(found.iter().flat_map(|row| group.iter().copied().zip(row.weights.iter().copied())));
-        of_rater.entry((object, rater, quantity)).or_default().extend(found);
+        let fused = row_of(measurements, &group, Level::Fused);
+        weights.extend(fused.iter().flat_map(|row| group.iter().copied().zip(row.weights.iter().copied())));
+        of_rater.entry((object, rater, quantity)).or_default().extend(fused);
     }
     for ((object, rater, quantity, method), group) in groups(measurements, most, false) {
         let raters: BTreeSet<&str> = group.iter().map(|&i| measurements[i].row.rater.as_str()).collect();

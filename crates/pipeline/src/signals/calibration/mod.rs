@@ -30,7 +30,7 @@ impl AxisCalibration {
 
     /// The calibrated sample.
     #[must_use]
-    pub fn of(&self, sample_g: &Vector3<f64>) -> Vector3<f64> {
+    pub fn apply(&self, sample_g: &Vector3<f64>) -> Vector3<f64> {
         self.scale.component_mul(&(sample_g + self.offset_g))
     }
 }
@@ -109,9 +109,9 @@ impl GravityCalibration {
         self.fit.filter(|_| self.verdict == CalibrationVerdict::Accepted)
     }
 
-    fn of(points: &Points) -> Self {
+    fn from_points(points: &Points) -> Self {
         let (least_g, most_g) = points.reach();
-        let mut found = Self {
+        let mut judged = Self {
             verdict: CalibrationVerdict::Accepted,
             windows: points.windows(),
             directions: points.directions(),
@@ -123,17 +123,17 @@ impl GravityCalibration {
         };
         let seen_on_both_sides =
             least_g.iter().all(|least| *least < -MIN_REACH_G) && most_g.iter().all(|most| *most > MIN_REACH_G);
-        if found.windows < MIN_WINDOWS {
-            found.verdict = CalibrationVerdict::TooFewWindows;
-        } else if found.directions < MIN_DIRECTIONS || !seen_on_both_sides {
-            found.verdict = CalibrationVerdict::TooFewDirections;
+        if judged.windows < MIN_WINDOWS {
+            judged.verdict = CalibrationVerdict::TooFewWindows;
+        } else if judged.directions < MIN_DIRECTIONS || !seen_on_both_sides {
+            judged.verdict = CalibrationVerdict::TooFewDirections;
         } else {
             let fit = sphere::fit(points);
-            found.error_after_mg = points.error_mg(&fit);
-            found.fit = Some(fit);
-            found.verdict = verdict(&fit, found.error_before_mg, found.error_after_mg);
+            judged.error_after_mg = points.error_mg(&fit);
+            judged.fit = Some(fit);
+            judged.verdict = verdict(&fit, judged.error_before_mg, judged.error_after_mg);
         }
-        found
+        judged
     }
 }
 

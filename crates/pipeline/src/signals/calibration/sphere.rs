@@ -49,7 +49,7 @@ impl Points {
         let (mut windows, mut sum) = (0.0, 0.0);
         for (weight, mean) in self.means() {
             windows += weight;
-            sum += weight * (calibration.of(&mean).norm() - 1.0).abs();
+            sum += weight * (calibration.apply(&mean).norm() - 1.0).abs();
         }
         (windows > 0.0).then(|| 1000.0 * sum / windows)
     }
@@ -79,7 +79,7 @@ pub(super) fn fit(points: &Points) -> AxisCalibration {
     let mut calibration = AxisCalibration::NONE;
     let mut weights: Vec<f64> = means.iter().map(|(windows, _)| *windows).collect();
     for _ in 0..MAX_ROUNDS {
-        let calibrated: Vec<Vector3<f64>> = means.iter().map(|(_, mean)| calibration.of(mean)).collect();
+        let calibrated: Vec<Vector3<f64>> = means.iter().map(|(_, mean)| calibration.apply(mean)).collect();
         let on_sphere: Vec<Vector3<f64>> = calibrated.iter().map(Vector3::normalize).collect();
         for axis in 0..3 {
             let pairs = means.iter().zip(&on_sphere).map(|((_, mean), target)| (mean[axis], target[axis]));
@@ -91,7 +91,7 @@ pub(super) fn fit(points: &Points) -> AxisCalibration {
         for (((windows, mean), before), (target, weight)) in
             means.iter().zip(&calibrated).zip(on_sphere.iter().zip(&mut weights))
         {
-            let after = calibration.of(mean);
+            let after = calibration.apply(mean);
             moved += windows * (after - before).norm_squared();
             total += windows;
             *weight = windows / (after - target).norm().max(SMALLEST_RESIDUAL_G);

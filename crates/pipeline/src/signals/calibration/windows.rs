@@ -1,4 +1,4 @@
-//! Still windows, found in a stream of samples.
+//! Still windows in a stream of samples.
 
 use ingest::Sample;
 use model::UtcNs;
@@ -69,6 +69,6 @@ impl StillWindows {
 
     /// What they say. The last window, which is not full, is left out.
     pub(in crate::signals) fn calibration(&self) -> GravityCalibration {
-        GravityCalibration::of(&self.points)
+        GravityCalibration::from_points(&self.points)
     }
 }

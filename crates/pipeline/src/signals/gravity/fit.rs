@@ -34,7 +34,7 @@ impl Line {
     }
 
     /// Its value `seconds` after the image's time.
-    pub(super) fn at(&self, seconds: f64) -> Vector3<f64> {
+    pub(super) fn value_at(&self, seconds: f64) -> Vector3<f64> {
         self.at_zero + self.slope * seconds
     }
 }

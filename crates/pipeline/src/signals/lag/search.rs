@@ -65,7 +65,7 @@ pub fn estimate(pairs: &[PairMotion<'_>]) -> LagEstimate {
     // Only pairs known at every lag, so that the lags are compared on the same pairs.
     let known: Vec<(f64, Vec<f64>)> =
         pairs.iter().filter_map(|pair| Some((pair.change, rotations(pair.from, pair.to)?))).collect();
-    let mut found = LagEstimate {
+    let mut estimated = LagEstimate {
         verdict: LagVerdict::TooFewPairs,
         lag_s: None,
         correlation: None,
@@ -73,7 +73,7 @@ pub fn estimate(pairs: &[PairMotion<'_>]) -> LagEstimate {
         pairs: known.len(),
     };
     if known.len() < MIN_PAIRS {
-        return found;
+        return estimated;
     }
     let changes = ranks(&known.iter().map(|(change, _)| *change).collect::<Vec<_>>());
     let curve: Vec<f64> = (0..LAGS)
@@ -82,8 +82,8 @@ pub fn estimate(pairs: &[PairMotion<'_>]) -> LagEstimate {
             correlation(&changes, &ranks(&angles)).unwrap_or(0.0)
         })
         .collect();
-    judge(&curve, &mut found);
-    found
+    judge(&curve, &mut estimated);
+    estimated
 }
 
 /// Angle between the directions at each lag; none unless all are known.
@@ -96,17 +96,17 @@ fn rotations(from: &[Option<nalgebra::Vector3<f64>>], to: &[Option<nalgebra::Vec
 }
 
 #[expect(clippy::cast_precision_loss, reason = "a count of pairs")]
-fn judge(curve: &[f64], found: &mut LagEstimate) {
+fn judge(curve: &[f64], estimated: &mut LagEstimate) {
     let Some(peak) = (0..curve.len()).max_by(|a, b| curve[*a].total_cmp(&curve[*b])) else { return };
-    let standard_error = 1.0 / (found.pairs as f64 - 1.0).sqrt();
+    let standard_error = 1.0 / (estimated.pairs as f64 - 1.0).sqrt();
     let near = |i: &usize| curve[*i] > curve[peak] - standard_error;
     let (first, last) = ((0..LAGS).find(near).unwrap_or(peak), (0..LAGS).rfind(near).unwrap_or(peak));
     let half_width_s = 0.5 * (last - first + 1) as f64 * STEP_S;
-    found.lag_s = Some(lag_s(peak) + STEP_S * top_of_parabola(curve, peak));
-    found.correlation = Some(curve[peak]);
-    found.half_width_s = Some(half_width_s);
+    estimated.lag_s = Some(lag_s(peak) + STEP_S * top_of_parabola(curve, peak));
+    estimated.correlation = Some(curve[peak]);
+    estimated.half_width_s = Some(half_width_s);
     let above_median = curve[peak] - median(curve.to_vec());
-    found.verdict = if curve[peak] < MIN_CORRELATION.max(MIN_STANDARD_ERRORS * standard_error) {
+    estimated.verdict = if curve[peak] < MIN_CORRELATION.max(MIN_STANDARD_ERRORS * standard_error) {
         LagVerdict::NoAgreement
     } else if peak == 0 || peak + 1 == curve.len() {
         LagVerdict::AtTheEnd

@@ -37,7 +37,7 @@ impl Levels {
 /// The sorted readings are split where the two sides' means are best apart (Otsu 1979). They are two levels when the
 /// sides' medians are far apart against the robust SD of the readings around their own median. Sorting, and not a split in
 /// time, also finds a hand that came and went.
-pub(super) fn of(readings_mm: &[f64]) -> Option<Levels> {
+pub(super) fn two_levels(readings_mm: &[f64]) -> Option<Levels> {
     let mut sorted = readings_mm.to_vec();
     sorted.sort_by(f64::total_cmp);
     let (low, high) = sorted.split_at(best_split(&sorted)?);

@@ -42,7 +42,7 @@ const MIN_VALID_ONE_IN: usize = 3;
 const HELD_READINGS: usize = 25;
 
 /// Median of the readings that are ranges: between the limits, and no code.
-pub(super) fn of(samples: &[(UtcNs, f64)], spec: &ReadingSettings) -> Range {
+pub(super) fn range_from(samples: &[(UtcNs, f64)], spec: &ReadingSettings) -> Range {
     let is_range = |mm: f64| mm >= spec.range_min_mm && mm <= spec.range_max_mm && !NO_TARGET_MM.contains(&mm);
     let valid_samples = count(samples.iter().filter(|(_, mm)| is_range(*mm)).count());
     let held = held::readings(samples, spec.range_update_s);
@@ -53,7 +53,7 @@ pub(super) fn of(samples: &[(UtcNs, f64)], spec: &ReadingSettings) -> Range {
     if readings_mm.len() < MIN_VALID || readings_mm.len() * MIN_VALID_ONE_IN < all {
         return Range { median_mm: None, spread_mm: None, valid_samples, distinct, held: false, step: false };
     }
-    let levels = levels::of(&readings_mm);
+    let levels = levels::two_levels(&readings_mm);
     let step = levels.is_some();
     let used = match levels {
         Some(levels) => levels.clear_majority(),

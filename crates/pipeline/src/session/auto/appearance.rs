@@ -9,7 +9,7 @@ use crate::rims::{HeightSource, RimHeight};
 
 /// What an image, or several, tell of a container.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Looks {
+pub(super) struct Appearance {
     /// Height of the rim if it is a plate's.
     pub plate: RimHeight,
     /// Height of the rim if it is a bowl's.
@@ -24,7 +24,7 @@ const MOST_LOG_ODDS: f64 = 10.0;
 /// containers. Of rims in simulated sessions (`worn`, seeds 101 to 103, 38 containers) it was 0.78 for bowls, 0.72 for plates.
 const SHARED: f64 = 0.75;
 
-impl Looks {
+impl Appearance {
     /// What it is taken for.
     pub fn kind(&self) -> Kind {
         if self.plate_log_odds >= 0.0 { Kind::Plate } else { Kind::Bowl }
@@ -35,21 +35,21 @@ impl Looks {
     }
 }
 
-/// The looks of a container, image by image, put together.
+/// The appearance of a container in several images, summed up image by image.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Together {
+pub(super) struct PooledAppearance {
     images: u32,
     log_odds: f64,
     plate: Heights,
     bowl: Heights,
 }
 
-impl Together {
-    pub fn add(&mut self, looks: &Looks) {
+impl PooledAppearance {
+    pub fn add(&mut self, appearance: &Appearance) {
         self.images += 1;
-        self.log_odds += limited(looks.plate_log_odds);
-        self.plate.add(&looks.plate);
-        self.bowl.add(&looks.bowl);
+        self.log_odds += limited(appearance.plate_log_odds);
+        self.plate.add(&appearance.plate);
+        self.bowl.add(&appearance.bowl);
     }
 
     pub fn append(&mut self, other: &Self) {
@@ -59,12 +59,12 @@ impl Together {
         self.bowl.append(&other.bowl);
     }
 
-    /// The looks by all images; none of none.
+    /// The appearance by all images; none where there is no image.
     ///
     /// Images of one container mostly err alike, and differ a little: the evidence of n of them counts as that of √n, between
     /// one (all err alike) and n (none do).
-    pub fn looks(&self) -> Option<Looks> {
-        Some(Looks {
+    pub fn appearance(&self) -> Option<Appearance> {
+        Some(Appearance {
             plate: self.plate.mean()?,
             bowl: self.bowl.mean()?,
             plate_log_odds: self.log_odds / f64::from(self.images).sqrt(),
@@ -133,20 +133,20 @@ mod tests {
         RimHeight { mm, sigma_mm, source }
     }
 
-    fn looks(plate_log_odds: f64, bowl: RimHeight) -> Looks {
-        Looks { plate: height(20.0, 5.0, HeightSource::Common), bowl, plate_log_odds }
+    fn appearance(plate_log_odds: f64, bowl: RimHeight) -> Appearance {
+        Appearance { plate: height(20.0, 5.0, HeightSource::Common), bowl, plate_log_odds }
     }
 
-    fn together(all: &[Looks]) -> Looks {
-        let mut together = Together::default();
-        all.iter().for_each(|looks| together.add(looks));
-        together.looks().unwrap()
+    fn pooled(all: &[Appearance]) -> Appearance {
+        let mut pooled = PooledAppearance::default();
+        all.iter().for_each(|appearance| pooled.add(appearance));
+        pooled.appearance().unwrap()
     }
 
     #[test]
     fn one_image_says_what_it_said() {
-        let one = looks(-3.0, height(60.0, 12.0, HeightSource::Foot));
-        let by_all = together(&[one]);
+        let one = appearance(-3.0, height(60.0, 12.0, HeightSource::Foot));
+        let by_all = pooled(&[one]);
         assert!((by_all.bowl.mm - 60.0).abs() < 1e-9 && (by_all.bowl.sigma_mm - 12.0).abs() < 1e-9);
         assert_eq!((by_all.kind(), by_all.bowl.source), (Kind::Bowl, HeightSource::Foot));
         assert!((by_all.plate_log_odds + 3.0).abs() < 1e-12);
@@ -155,14 +155,15 @@ mod tests {
     #[test]
     fn images_outvote_one_that_is_off_however_sure_it_is() {
         let bowl = height(60.0, 12.0, HeightSource::Foot);
-        let by_all = together(&[looks(4.0, bowl), looks(5.0, bowl), looks(-300.0, bowl), looks(4.0, bowl)]);
+        let by_all =
+            pooled(&[appearance(4.0, bowl), appearance(5.0, bowl), appearance(-300.0, bowl), appearance(4.0, bowl)]);
         assert_eq!(by_all.kind(), Kind::Plate);
     }
 
     #[test]
     fn what_images_share_does_not_average_out() {
         let bowl = height(60.0, 10.0, HeightSource::Common);
-        let by_all = together(&vec![looks(-1.0, bowl); 10_000]);
+        let by_all = pooled(&vec![appearance(-1.0, bowl); 10_000]);
         assert!((by_all.bowl.sigma_mm - 10.0 * SHARED.sqrt()).abs() < 0.01, "{by_all:?}");
         assert!((by_all.plate_log_odds + 100.0).abs() < 1e-9, "as 100 images");
     }
@@ -170,7 +171,7 @@ mod tests {
     #[test]
     fn the_surer_height_counts_more_and_names_the_source() {
         let (seen, guessed) = (height(60.0, 5.0, HeightSource::Foot), height(90.0, 20.0, HeightSource::Common));
-        let by_all = together(&[looks(-1.0, seen), looks(-1.0, guessed), looks(-1.0, guessed)]);
+        let by_all = pooled(&[appearance(-1.0, seen), appearance(-1.0, guessed), appearance(-1.0, guessed)]);
         assert!((by_all.bowl.mm - (16.0 * 60.0 + 2.0 * 90.0) / 18.0).abs() < 1e-9, "{by_all:?}");
         assert_eq!(by_all.bowl.source, HeightSource::Foot);
         assert!(by_all.bowl.sigma_mm < 7.0);
@@ -178,13 +179,14 @@ mod tests {
 
     #[test]
     fn parts_give_what_the_whole_gives() {
-        let all: Vec<Looks> =
-            (0..7).map(|i| looks(f64::from(i) - 3.0, height(50.0 + f64::from(i), 9.0, HeightSource::Floor))).collect();
-        let (mut a, mut b) = (Together::default(), Together::default());
-        all[..3].iter().for_each(|looks| a.add(looks));
-        all[3..].iter().for_each(|looks| b.add(looks));
+        let all: Vec<Appearance> = (0..7)
+            .map(|i| appearance(f64::from(i) - 3.0, height(50.0 + f64::from(i), 9.0, HeightSource::Floor)))
+            .collect();
+        let (mut a, mut b) = (PooledAppearance::default(), PooledAppearance::default());
+        all[..3].iter().for_each(|appearance| a.add(appearance));
+        all[3..].iter().for_each(|appearance| b.add(appearance));
         a.append(&b);
-        let (parts, whole) = (a.looks().unwrap(), together(&all));
+        let (parts, whole) = (a.appearance().unwrap(), pooled(&all));
         assert!(
             (parts.bowl.mm - whole.bowl.mm).abs() < 1e-9 && (parts.bowl.sigma_mm - whole.bowl.sigma_mm).abs() < 1e-9
         );
@@ -193,10 +195,10 @@ mod tests {
 
     #[test]
     fn odd_numbers_are_no_trouble() {
-        assert_eq!(Together::default().looks(), None);
-        let odd = looks(f64::NAN, height(f64::NAN, 0.0, HeightSource::Foot));
-        let mut together = Together::default();
-        together.add(&odd);
-        assert_eq!(together.looks(), None);
+        assert_eq!(PooledAppearance::default().appearance(), None);
+        let odd = appearance(f64::NAN, height(f64::NAN, 0.0, HeightSource::Foot));
+        let mut pooled = PooledAppearance::default();
+        pooled.add(&odd);
+        assert_eq!(pooled.appearance(), None);
     }
 }

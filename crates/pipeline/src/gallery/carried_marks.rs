@@ -6,13 +6,13 @@ use model::{GalleryMark, resampled_px};
 use crate::session::{ShownImage, ShownMark, ShownObject};
 
 /// A picture with the marks in its own pixels.
-pub(super) struct Marked {
+pub(super) struct MarkedPicture {
     pub picture: Picture,
     pub marks: Vec<GalleryMark>,
 }
 
 /// The marks where `place` says that their points are; those with a point that is nowhere are left out.
-pub(super) fn placed(shown: &ShownImage, place: impl Fn([f64; 2]) -> Option<[f64; 2]>) -> Vec<GalleryMark> {
+pub(super) fn carried(shown: &ShownImage, place: impl Fn([f64; 2]) -> Option<[f64; 2]>) -> Vec<GalleryMark> {
     let hundredths = |point: [f64; 2]| point.map(|c| (c * 100.0).round() / 100.0);
     let of_object = |object: &ShownObject| {
         let marks = object.marks.iter().filter_map(|mark| {

@@ -43,7 +43,7 @@ impl MarkedObject {
 impl SessionMarks {
     /// Without marks; with the names that the study gives to what is found in the session.
     pub(super) fn new(study: &Study, dir: &SessionDir) -> Self {
-        Self { by_image: BTreeMap::new(), naming: Naming::of(study, dir) }
+        Self { by_image: BTreeMap::new(), naming: Naming::for_session(study, dir) }
     }
 
     /// Reads the marks of all raters. What cannot be used becomes a problem; the rest is kept. The hash of every file that
@@ -94,7 +94,7 @@ impl SessionMarks {
             (of, found)
         };
         let marked = marks.objects.into_iter().map(with_found).collect();
-        let named = self.naming.named(marked, &place, problems);
+        let named = self.naming.rename(marked, &place, problems);
         Ok((image.to_owned(), known_objects(session, named, &place, problems)))
     }
 
@@ -111,7 +111,7 @@ impl SessionMarks {
                 continue;
             }
             let found = rims.iter().map(|rim| (rim.marks(), Some(rim.found))).collect();
-            let named = self.naming.named(found, &session.place_of(image), problems);
+            let named = self.naming.rename(found, &session.place_of(image), problems);
             let marked =
                 named.into_iter().filter_map(|(marks, found)| MarkedObject::new(session.study, marks, found).ok());
             by_rater.insert(AUTO.to_owned(), marked.collect());
