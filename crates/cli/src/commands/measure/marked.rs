@@ -40,7 +40,17 @@ pub fn run(args: &MeasureArgs, view: &View, picture: &[u8], marks_file: &Path, k
     let sizes = without_missing_heights(sizes);
     overlay::write_marked(args, view, picture, &container, &marks.objects, &sizes)?;
     print(&if args.json { format!("{}\n", serde_json::to_string_pretty(&sizes)?) } else { text(&sizes, &inputs) })?;
-    for object in marks.objects.iter().filter(|object| !object.inside_picture(view.camera().size_px())) {
+    let lost = report_problems(&marks, &sizes, view.camera().size_px(), shape);
+    if sizes.iter().all(|size| size.predicted_mm.is_none()) {
+        return Err(Failure::Failed(anyhow!("nothing could be measured from the marks in {}", marks_file.display())));
+    }
+    Ok(outcome(lost || sizes.iter().any(|size| size.predicted_mm.is_none())))
+}
+
+/// Reports marks outside the picture, and everything that gives no size. Returns whether marks were refused, or an object has no
+/// size at all.
+fn report_problems(marks: &labelme::Marks, sizes: &[Size], size_px: [u32; 2], shape: Shape) -> bool {
+    for object in marks.objects.iter().filter(|object| !object.inside_picture(size_px)) {
         print_message(&format!("warning: marks of '{}' lie outside the picture\n", object.object));
     }
     let mut lost = !marks.refused.is_empty();
@@ -52,17 +62,14 @@ pub fn run(args: &MeasureArgs, view: &View, picture: &[u8], marks_file: &Path, k
         tracing::error!("the marks of '{}' give no size of a {shape}", object.object);
     }
     let mut reported = BTreeSet::new();
-    for size in &sizes {
+    for size in sizes {
         if let Some(problem) = &size.problem
             && reported.insert((&size.object, size.quantity, problem))
         {
             tracing::error!("{} of '{}' by {}: {problem}", size.quantity, size.object, size.method);
         }
     }
-    if sizes.iter().all(|size| size.predicted_mm.is_none()) {
-        return Err(Failure::Failed(anyhow!("nothing could be measured from the marks in {}", marks_file.display())));
-    }
-    Ok(outcome(lost || sizes.iter().any(|size| size.predicted_mm.is_none())))
+    lost
 }
 
 /// The sizes, without the heights that a method lacks because nobody marked a line for it, where another method has measured
