@@ -186,6 +186,7 @@ impl Column {
         Self { heading: Some(heading.into()), ..self }
     }
 
+    /// The column with a heading where it is to be `shown`.
     pub(crate) fn headed_if(self, shown: bool, heading: &str) -> Self {
         if shown { self.headed(heading) } else { self }
     }
@@ -194,6 +195,7 @@ impl Column {
         Self { format, ..self }
     }
 
+    /// The column with the numbers of another one after ±.
     pub(crate) fn with_spread(self, column: &'static str) -> Self {
         Self { spread: Some(column), ..self }
     }

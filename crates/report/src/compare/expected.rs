@@ -92,6 +92,7 @@ impl ExpectedRow {
 }
 
 impl ExpectedFile {
+    /// The table of a CSV file. Fails where the file cannot be read, or is no CSV with rows of equal length.
     pub(super) fn read(path: &Path) -> Result<Self, CompareError> {
         let bytes = std::fs::read(path).map_err(|source| CompareError::Read { path: path.to_owned(), source })?;
         // Spreadsheets begin UTF-8 files with a byte order mark.

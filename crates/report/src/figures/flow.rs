@@ -12,6 +12,7 @@ use crate::tables::step_heading;
 
 const NAME: &str = "flow";
 const TITLE: &str = "Flow of images";
+/// The reason why the figures of images are left out.
 pub(super) const NO_LEDGER: &str = "the ledger of images, frames.parquet, was not read or has no image";
 
 const KEPT: Paint = Paint::area(Colour::Blue, 0.75);
@@ -61,6 +62,7 @@ pub(super) fn draw(frames: &[FrameRow]) -> Attempt {
     Attempt::drawn(NAME, TITLE, [caption(frames.len(), sessions), alt(&steps)], drawing)
 }
 
+/// The steps of the flow in their order. The reasons of a step are in the order of the numbers of images, the greatest first.
 pub(super) fn steps(flow: &Flow) -> Vec<Step> {
     let mut before = flow.images_at(FlowStep::Found);
     let mut steps = Vec::new();

@@ -63,6 +63,7 @@ pub(super) struct Words {
 }
 
 impl Words {
+    /// The cell that names a word by its index; a new word is added to the list.
     pub(super) fn place(&mut self, word: &str) -> Datum {
         if word.is_empty() {
             return Datum::Nothing(());

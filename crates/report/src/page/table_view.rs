@@ -49,6 +49,7 @@ pub(super) struct CellView {
 }
 
 impl TableView {
+    /// The table as the template shows it. Fails where a long one cannot be written as JSON.
     pub(super) fn from_table(table: &Table, has_files: bool) -> Result<Self, serde_json::Error> {
         let is_long = table.rows.len() > LONG;
         let rows = if is_long { &table.rows[..SHOWN_OF_LONG] } else { &table.rows[..] };

@@ -38,6 +38,7 @@ impl<R: Row> RowFile<R> {
         Ok(Self { path: path.to_owned(), aside, writer, pending: Vec::new() })
     }
 
+    /// Appends rows. Those that fill a row group are written.
     pub(super) fn push(&mut self, rows: Vec<R>) -> Result<(), SinkError> {
         self.pending.extend(rows);
         while self.pending.len() >= ROWS_PER_GROUP {

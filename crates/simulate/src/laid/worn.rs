@@ -148,12 +148,12 @@ impl Meal {
                 near.y - random.random_range(0.1..0.7) * radius,
                 height + random.random_range(8.0..60.0),
             );
-            world.bodies.extend(things::Hand::drawn(random, tip, elbow, self.skin).bodies());
+            world.bodies.extend(things::Hand::random(random, tip, elbow, self.skin).bodies());
             if random.random_bool(0.5) {
                 let turn = std::f64::consts::FRAC_PI_2 * (1.0 + side * random.random_range(0.2..0.7));
                 let grip = tip - Vector3::new(0.0, 60.0, -20.0);
                 let rise = random.random_range(-0.5..0.0);
-                world.bodies.extend(things::Cutlery::drawn(random, grip, turn, rise).bodies());
+                world.bodies.extend(things::Cutlery::random(random, grip, turn, rise).bodies());
             }
         }
     }

@@ -26,6 +26,7 @@ impl Bowl {
         (self.rim_radius_mm - self.foot_radius_mm) / self.height_mm
     }
 
+    /// The surface of the bowl that the ray meets first.
     pub(super) fn hit(&self, ray: &Ray) -> Option<Hit> {
         nearer(nearer(self.hit_rim(ray), self.hit_wall(ray)), self.hit_floor(ray))
     }
@@ -80,6 +81,7 @@ impl Bowl {
         }
     }
 
+    /// The distance of a point of the table from the foot, in mm; negative inside.
     pub(super) fn distance_outside(&self, point: Point2<f64>) -> f64 {
         (point - self.center_mm).norm() - self.foot_radius_mm
     }

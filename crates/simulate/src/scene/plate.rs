@@ -38,6 +38,7 @@ impl Plate {
         (reach_mm / self.half_width_mm, outwards.push(0.0))
     }
 
+    /// The surface of the plate that the ray meets.
     pub(super) fn hit(&self, ray: &Ray) -> Option<Hit> {
         let distance = ray.to_level(0.0)?;
         let (reach, outwards) = self.reach(ray.point_at(distance).xy());
@@ -51,6 +52,7 @@ impl Plate {
         Some(Hit { distance, part: Part::Floor, normal, openness })
     }
 
+    /// The distance of a point of the table from the plate, in mm; 0 or negative inside.
     pub(super) fn distance_outside(&self, point: Point2<f64>) -> f64 {
         match self.outline {
             Outline::Circle => (point - self.center_mm).norm() - self.half_width_mm,

@@ -20,6 +20,7 @@ pub struct Tub {
 const RIM_MM: f64 = 3.0;
 
 impl Tub {
+    /// The surface of the box that the ray meets first.
     pub(super) fn hit(&self, ray: &Ray) -> Option<Hit> {
         let walls = [0, 1].into_iter().flat_map(|axis| [-1.0, 1.0].map(|side| self.hit_wall(ray, axis, side)));
         walls.fold(nearer(self.hit_rim(ray), self.hit_floor(ray)), nearer)
@@ -71,6 +72,7 @@ impl Tub {
         })
     }
 
+    /// The distance of a point of the table from the box, in mm; 0 inside.
     pub(super) fn distance_outside(&self, point: Point2<f64>) -> f64 {
         (point - self.center_mm).abs().zip_map(&self.half_size_mm, |d, half| (d - half).max(0.0)).norm()
     }

@@ -62,6 +62,7 @@ impl Recording<'_> {
 }
 
 #[expect(clippy::cast_precision_loss, reason = "whole seconds are exact, and the rest is below 1 s")]
+/// A time in seconds since 1970-01-01 UTC.
 pub(crate) fn posix_s(time: UtcNs) -> f64 {
     let (seconds, nanoseconds) = (time.0.div_euclid(1_000_000_000), time.0.rem_euclid(1_000_000_000));
     seconds as f64 + nanoseconds as f64 * 1e-9

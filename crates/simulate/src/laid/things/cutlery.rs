@@ -32,7 +32,8 @@ pub(in crate::laid) struct Cutlery {
 }
 
 impl Cutlery {
-    pub fn drawn(random: &mut impl Rng, at_mm: Point3<f64>, turn_rad: f64, rise_rad: f64) -> Self {
+    /// A random piece of cutlery at a place.
+    pub fn random(random: &mut impl Rng, at_mm: Point3<f64>, turn_rad: f64, rise_rad: f64) -> Self {
         let utensil = match random.random_range(0..3) {
             0 => Utensil::Spoon,
             1 => Utensil::Fork,

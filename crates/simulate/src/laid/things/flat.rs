@@ -20,7 +20,7 @@ pub(in crate::laid) struct Napkin {
 }
 
 impl Napkin {
-    pub fn drawn(random: &mut impl Rng, at_mm: Point2<f64>) -> Self {
+    pub fn random(random: &mut impl Rng, at_mm: Point2<f64>) -> Self {
         let colour = [[0.85, 0.83, 0.8], [0.55, 0.12, 0.12], [0.2, 0.3, 0.5]][random.random_range(0..3)];
         let seed = random.random();
         let half_mm = [random.random_range(50.0..85.0), random.random_range(50.0..85.0)];
@@ -45,7 +45,7 @@ pub(in crate::laid) struct Telephone {
 }
 
 impl Telephone {
-    pub fn drawn(random: &mut impl Rng, at_mm: Point2<f64>) -> Self {
+    pub fn random(random: &mut impl Rng, at_mm: Point2<f64>) -> Self {
         let turn_rad = random.random_range(-0.7..0.7);
         Self { at_mm, turn_rad, seed: random.random() }
     }

@@ -32,7 +32,8 @@ const JUICE: Rgb = [0.9, 0.55, 0.15];
 const BOTTOM_MM: f64 = 6.0;
 
 impl Glass {
-    pub fn drawn(random: &mut impl Rng, at_mm: Point2<f64>) -> Self {
+    /// A random glass at a place.
+    pub fn random(random: &mut impl Rng, at_mm: Point2<f64>) -> Self {
         let (top, foot) = (random.random_range(30.0..42.0), random.random_range(24.0..30.0));
         let height_mm = random.random_range(85.0..140.0);
         let full = random.random_range(0.3..0.8);

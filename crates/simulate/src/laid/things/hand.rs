@@ -20,7 +20,8 @@ pub(in crate::laid) struct Hand {
 }
 
 impl Hand {
-    pub fn drawn(random: &mut impl Rng, tip_mm: Point3<f64>, elbow_mm: Point3<f64>, skin: Rgb) -> Self {
+    /// A hand with randomly bent fingers.
+    pub fn random(random: &mut impl Rng, tip_mm: Point3<f64>, elbow_mm: Point3<f64>, skin: Rgb) -> Self {
         let seed = random.random();
         Self { tip_mm, elbow_mm, skin, curl: random.random_range(0.1..0.5), seed }
     }

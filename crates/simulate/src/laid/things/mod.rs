@@ -36,18 +36,18 @@ pub(super) fn beside(
         let away = |clear: f64| at + nalgebra::Vector2::new(angle.cos(), angle.sin()) * (radius + clear);
         let bodies = match random.random_range(0..5) {
             0 => {
-                let glass = Glass::drawn(random, away(70.0));
+                let glass = Glass::random(random, away(70.0));
                 vessels.push(glass.vessel);
                 glass.bodies()
             }
-            1 => Napkin::drawn(random, away(125.0)).bodies(),
-            2 => Telephone::drawn(random, away(105.0)).bodies(),
+            1 => Napkin::random(random, away(125.0)).bodies(),
+            2 => Telephone::random(random, away(105.0)).bodies(),
             _ => {
                 let spot = away(30.0);
                 // It lies along a tangent, so that it does not reach into the container.
                 let turn = angle + 0.5 * PI;
                 let back = nalgebra::Vector2::new(turn.cos(), turn.sin()) * -80.0;
-                Cutlery::drawn(random, Point3::new(spot.x + back.x, spot.y + back.y, 0.0), turn, 0.0).bodies()
+                Cutlery::random(random, Point3::new(spot.x + back.x, spot.y + back.y, 0.0), turn, 0.0).bodies()
             }
         };
         world.bodies.extend(bodies);
