@@ -1,4 +1,4 @@
-//! docs/results.md is made from the schema, docs/ledger.md from the reasons. `AIM_BATCH_UPDATE=1` rewrites them.
+//! docs/results.md is made from the schema, and docs/ledger.md from the reasons. `AIM_BATCH_UPDATE=1` rewrites both.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use aim_batch_model::results::{dictionary_markdown, ledger_markdown};
@@ -10,9 +10,9 @@ fn the_documents_are_those_of_the_code() {
         if std::env::var_os("AIM_BATCH_UPDATE").is_some_and(|value| value == "1") {
             std::fs::write(&path, &expected).unwrap();
         }
-        let found = std::fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
+        let written = std::fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
         assert!(
-            found == expected,
+            written == expected,
             "docs/{file} is not what the code says; \
              run AIM_BATCH_UPDATE=1 cargo test -p aim-batch-model --test dictionary, and read the difference"
         );

@@ -68,7 +68,7 @@ pub(crate) struct Aside {
 }
 
 impl Aside {
-    pub(crate) fn of(target: &Path) -> Result<Self, FileError> {
+    pub(crate) fn create(target: &Path) -> Result<Self, FileError> {
         check(target)?;
         let name = target.file_name().unwrap_or_default().to_string_lossy();
         let path = folder(target).join(format!(".{name}.aim-batch-part"));
@@ -139,7 +139,7 @@ fn is_still_at(_file: &File, _path: &Path) -> bool {
 /// # Errors
 /// [`FileError`]; an earlier file of that name is then as it was.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    let aside = Aside::of(path)?;
+    let aside = Aside::create(path)?;
     aside.file().write_all(bytes).map_err(|source| FileError::Write { path: path.to_owned(), source })?;
     aside.sync()?;
     aside.put_in_place()
@@ -165,8 +165,8 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("a.csv");
         std::fs::write(&path, b"earlier").unwrap();
-        let first = Aside::of(&path).unwrap();
-        assert!(matches!(Aside::of(&path), Err(FileError::Busy { .. })));
+        let first = Aside::create(&path).unwrap();
+        assert!(matches!(Aside::create(&path), Err(FileError::Busy { .. })));
         drop(first);
         assert_eq!(std::fs::read(&path).unwrap(), b"earlier");
         assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 1);

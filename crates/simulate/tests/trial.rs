@@ -23,7 +23,7 @@ fn intervals_cover_and_the_new_methods_are_better() {
 
     let bowls = [Subject::UprightBowl, Subject::SlopedBowl, Subject::CurvedBowl];
     let heights = |subjects: &[Subject], method: Method| {
-        let of = |subject: &Subject| score.of(Level::Image, Quantity::Height, Some(*subject), method).unwrap();
+        let of = |subject: &Subject| score.line(Level::Image, Quantity::Height, Some(*subject), method).unwrap();
         let squares: f64 = subjects.iter().map(|s| of(s).rmse_pct.powi(2)).sum();
         (squares / f64::from(u32::try_from(subjects.len()).unwrap())).sqrt()
     };

@@ -76,7 +76,7 @@ fn in_image(file: &Path, seen: &Seen) -> anyhow::Result<Vec<Sighting>> {
     let marks = labelme::parse(&labelme::read_bytes(file)?, file, seen.view.camera().size_px())?;
     let found = marks.objects.iter().filter_map(|object| Some((object, marks.found.get(&object.object)?)));
     Ok(found
-        .map(|(marks, found)| Sighting { name: marks.object.clone(), kind: found.kind, of: seen.of(marks) })
+        .map(|(marks, found)| Sighting { name: marks.object.clone(), kind: found.kind, of: seen.container_of(marks) })
         .collect())
 }
 

@@ -76,7 +76,7 @@ impl Sums {
     }
 
     fn of_fused(&self, value: impl Fn(&Fused) -> f64) -> String {
-        told(self.fused.iter().map(value).collect())
+        quantiles_text(self.fused.iter().map(value).collect())
     }
 }
 
@@ -94,11 +94,11 @@ impl Display for Sums {
             "kind right: of images {:.0} %, of fused {right} of {fused}",
             100.0 * ratio(self.kinds, self.rims)
         )?;
-        writeln!(f, "diameter of one image, absolute error in %: {}", told(self.frames.clone()))?;
+        writeln!(f, "diameter of one image, absolute error in %: {}", quantiles_text(self.frames.clone()))?;
         writeln!(f, "diameter fused, absolute error in %: {}", self.of_fused(|fused| fused.error_pct))?;
         writeln!(f, "fused diameters within 1, 1.96 sigma: {}, {} of {fused}", within(1.0), within(1.96))?;
         writeln!(f, "height of the rim, absolute error in mm: {}", self.of_fused(|fused| fused.height_mm))?;
-        writeln!(f, "height of bowls, absolute error in %: {}", told(bowls.collect()))
+        writeln!(f, "height of bowls, absolute error in %: {}", quantiles_text(bowls.collect()))
     }
 }
 
@@ -108,7 +108,7 @@ fn ratio(part: usize, whole: usize) -> f64 {
 }
 
 /// Median, 95th per cent and greatest.
-fn told(mut values: Vec<f64>) -> String {
+fn quantiles_text(mut values: Vec<f64>) -> String {
     values.sort_by(f64::total_cmp);
     let Some(worst) = values.last() else { return "none".to_owned() };
     let q95 = values[(values.len() * 95).div_ceil(100) - 1];

@@ -36,7 +36,7 @@ pub struct Seen {
 
 impl Seen {
     /// The container whose rim, or the inner edge of it, was found.
-    pub fn of(&self, marks: &ObjectMarks) -> Option<String> {
+    pub fn container_of(&self, marks: &ObjectMarks) -> Option<String> {
         let off = |place: &Place| {
             let points = marks.marks.iter().flat_map(|mark| mark.points_px().iter().copied());
             let offs = points.filter_map(|point| {

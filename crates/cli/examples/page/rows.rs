@@ -1,4 +1,4 @@
-//! Made-up rows.
+//! Study-up rows.
 
 use model::{
     FrameReason, FrameRow, Kind, Level, Method, Problem, Quantity, ResultRow, RunLog, RunMetadata, SessionStatus,
@@ -6,7 +6,7 @@ use model::{
 };
 
 /// Rows of a study, session by session, with what its results file says of it.
-pub struct Made {
+pub struct Study {
     pub sessions: Vec<(Vec<ResultRow>, Vec<FrameRow>)>,
     pub metadata: RunMetadata,
     pub log: RunLog,
@@ -24,8 +24,8 @@ struct Plan<'a> {
 }
 
 /// Names that mean something to HTML, JSON, CSS and file systems.
-pub fn small() -> Made {
-    made(&Plan {
+pub fn small() -> Study {
+    study(&Plan {
         study: "<script>alert(1)</script>",
         sessions: [
             "</script><script>alert(2)</script>",
@@ -43,8 +43,8 @@ pub fn small() -> Made {
 }
 
 /// 10,000 measurements, 50,000 images.
-pub fn large() -> Made {
-    made(&Plan {
+pub fn large() -> Study {
+    study(&Plan {
         study: "large",
         sessions: (1..=200).map(|number| format!("P{number:03}-lunch")).collect(),
         objects: &["plate", "soup bowl"],
@@ -54,7 +54,7 @@ pub fn large() -> Made {
     })
 }
 
-fn made(plan: &Plan<'_>) -> Made {
+fn study(plan: &Plan<'_>) -> Study {
     let mut dice = Dice(7);
     let sessions: Vec<_> = plan.sessions.iter().map(|session| rows(plan, session, &mut dice)).collect();
     let status = |(place, name): (usize, &String)| {
@@ -82,7 +82,7 @@ fn made(plan: &Plan<'_>) -> Made {
         jobs: 2,
         ..RunLog::default()
     };
-    Made { sessions, metadata, log }
+    Study { sessions, metadata, log }
 }
 
 fn status(name: &str, place: usize, results: &[ResultRow], frames: &[FrameRow]) -> SessionStatus {

@@ -1,6 +1,8 @@
 //! `calibrate`: what a bench with known sizes tells of a device.
 
 use std::fmt::Write as _;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
 use anyhow::anyhow;
 use model::SessionStatus;
@@ -8,10 +10,22 @@ use pipeline::calibrate;
 use pipeline::calibration::{CalibrationFile, EmpiricalEntry, HeldOutEntry, PhysicalEntry};
 use pipeline::{Study, SurveyOptions};
 
-use super::{PROGRAM, outcome, print, stop_on_signals, survey_failure, tell};
-use crate::args::CalibrateArgs;
+use super::{PROGRAM, outcome, print, print_message, stop_on_signals, survey_failure};
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
+
+/// `calibrate`.
+#[derive(Debug, clap::Args)]
+pub struct CalibrateArgs {
+    /// Folder of the study (docs/study.md), with true sizes in objects.csv; nothing is written into it
+    pub study: PathBuf,
+    /// The file to write
+    #[arg(short, long, default_value = "calibration.toml")]
+    pub out: PathBuf,
+    /// Sessions at a time; default: the cores that this process may use
+    #[arg(short, long, env = "AIM_BATCH_JOBS")]
+    pub jobs: Option<NonZeroUsize>,
+}
 
 /// Learns, prints a table, and writes the file.
 pub fn run(args: &CalibrateArgs, bars: &Bars) -> Result<Outcome, Failure> {
@@ -28,7 +42,7 @@ pub fn run(args: &CalibrateArgs, bars: &Bars) -> Result<Outcome, Failure> {
         )));
     }
     ::report::write_file(&args.out, file.to_toml()?.as_bytes())?;
-    tell(&format!("wrote {}\n", args.out.display()));
+    print_message(&format!("wrote {}\n", args.out.display()));
     for session in sessions.iter().filter(|session| session.has_losses()) {
         tracing::warn!(session = session.session, "not all of it could be used; aim-batch check tells what and why");
     }

@@ -3,7 +3,7 @@
 use model::GallerySink;
 use pipeline::{GalleryError, GalleryHalted, GalleryOptions, NotShown, Reporter};
 
-use super::tell;
+use super::print_message;
 use crate::exit::Failure;
 
 /// More of them are counted, not listed.
@@ -18,11 +18,11 @@ pub fn gallery_into<S: GallerySink>(
 ) -> Result<bool, Failure> {
     match pipeline::gallery(options, progress, sink) {
         Ok(made) => {
-            tell(&not_shown(&made.not_shown));
+            print_message(&not_shown(&made.not_shown));
             Ok(!made.not_shown.is_empty())
         }
         Err(GalleryError::Halted(error @ GalleryHalted::NoWork(_))) => {
-            tell(&format!("no pictures in the report: {error}\n  -> give --work, or run the study again\n"));
+            print_message(&format!("no pictures in the report: {error}\n  -> give --work, or run the study again\n"));
             Ok(false)
         }
         Err(GalleryError::Halted(error @ GalleryHalted::Stopped { signal })) => {

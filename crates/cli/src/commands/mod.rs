@@ -42,7 +42,7 @@ fn print(text: &str) -> io::Result<()> {
 
 /// Writes what the user should know to stderr. A stderr that is closed or full changes neither what is done nor the exit code:
 /// there is nowhere to complain.
-fn tell(text: &str) {
+fn print_message(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
 }
 

@@ -5,8 +5,28 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use pipeline::Study;
 
-use crate::args::PlaceArgs;
 use crate::exit::Failure;
+
+/// Where results go, and what is kept between runs.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Input and output")]
+pub struct PlaceArgs {
+    /// File for the sizes, X.parquet; beside it are written the ledger of images, X.frames.parquet, and where all came from,
+    /// X.run.json (frames.parquet and run.json for results.parquet)
+    #[arg(short, long, env = "AIM_BATCH_OUT", default_value = "results.parquet")]
+    pub out: PathBuf,
+    /// Folder for what can be made anew (recordings as MCAP files, and the state of every session), and may be deleted;
+    /// default: X.work beside the output
+    #[arg(long, env = "AIM_BATCH_WORK")]
+    pub work: Option<PathBuf>,
+}
+
+impl PlaceArgs {
+    /// The work folder: the one given, or X.work beside X.parquet.
+    pub fn work_dir(&self) -> PathBuf {
+        self.work.clone().unwrap_or_else(|| self.out.with_extension("work"))
+    }
+}
 
 /// What is wrong with the name of the output.
 pub fn check_name(out: &Path) -> Result<(), Failure> {

@@ -6,9 +6,23 @@ use anyhow::{Context, anyhow};
 use model::{View, ViewError};
 use nalgebra::{Point2, Point3};
 
-use super::{outcome, tell, view};
-use crate::args::ProjectArgs;
+use super::view::PoseArgs;
+use super::{outcome, print_message, view};
 use crate::exit::{Failure, Outcome};
+
+/// `project`.
+#[derive(Debug, clap::Args)]
+pub struct ProjectArgs {
+    /// Where the camera is
+    #[command(flatten)]
+    pub pose: PoseArgs,
+    /// Height of the plane above the table, in mm
+    #[arg(long, value_name = "MM", default_value_t = 0.0)]
+    pub plane_z: f64,
+    /// From the plane to pixels: reads world_x_mm,world_y_mm
+    #[arg(long)]
+    pub inverse: bool,
+}
 
 const PIXEL_COLUMNS: [&str; 2] = ["x", "y"];
 const WORLD_COLUMNS: [&str; 2] = ["world_x_mm", "world_y_mm"];
@@ -34,7 +48,7 @@ pub fn run(args: &ProjectArgs) -> Result<Outcome, Failure> {
             Err(why) => {
                 lost += 1;
                 if lost <= WARNINGS_TOLD {
-                    tell(&format!("warning: row {row}: no answer for ({}, {}): {why}\n", texts[0], texts[1]));
+                    print_message(&format!("warning: row {row}: no answer for ({}, {}): {why}\n", texts[0], texts[1]));
                 }
                 writer.write_record([texts[0], texts[1], "", ""])?;
             }
@@ -42,7 +56,7 @@ pub fn run(args: &ProjectArgs) -> Result<Outcome, Failure> {
     }
     writer.flush().context("cannot write to standard output")?;
     if lost > WARNINGS_TOLD {
-        tell(&format!("warning: {} more points have no answer\n", lost - WARNINGS_TOLD));
+        print_message(&format!("warning: {} more points have no answer\n", lost - WARNINGS_TOLD));
     }
     Ok(outcome(lost > 0))
 }

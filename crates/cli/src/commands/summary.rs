@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use model::{SessionStatus, StageLog};
 use pipeline::Ran;
 
+use super::print_message;
 use super::problems::{describe, kinds};
-use super::tell;
 use crate::logging::LogFormat;
 
 /// More kinds of problems than this are counted, not listed: all of it fits on a screen. All are in the results file.
@@ -21,7 +21,7 @@ pub struct Finished<'a> {
 }
 
 /// Tells on stderr, or as an event of the log where that is JSON (each problem has been one already).
-pub fn tell_summary(finished: &Finished<'_>, format: LogFormat) {
+pub fn print_summary(finished: &Finished<'_>, format: LogFormat) {
     let Ran { sessions, done, wrote, stages, seconds } = finished.ran;
     let count = |count: fn(&SessionStatus) -> usize| sessions.iter().map(count).sum::<usize>();
     let (failed, images) = (count(|s| usize::from(s.failed)), count(|s| s.images));
@@ -56,7 +56,7 @@ pub fn tell_summary(finished: &Finished<'_>, format: LogFormat) {
         let _ = writeln!(text, "{verb} {}", file.display());
     }
     let _ = writeln!(text, "work folder {}", finished.work_dir.display());
-    tell(&text);
+    print_message(&text);
 }
 
 /// Seconds by stage.

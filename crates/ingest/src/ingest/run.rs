@@ -8,13 +8,15 @@ use model::{Camera, Problem, UtcNs};
 use super::clock_problems::clock_problems;
 use super::image_tally::ImageTally;
 use super::read_ahead::read_ahead;
-use super::{IngestError, SessionSource, dropped, recordings};
+use super::{dropped, recordings};
 use crate::card::{Anchoring, Card, CardFile, Inputs, Layout, Patterns, Place, Stream, TakenImage, judge_image};
+use crate::error::IngestError;
 use crate::key::{self, INGEST_VERSION};
 use crate::mcap_file::metadata::Facts;
 use crate::mcap_file::{Keep, SessionWriter, WriteError};
 use crate::profile::Images;
 use crate::progress::IngestProgress;
+use crate::source::SessionSource;
 use crate::summary::{Counts, DroppedImage, ImageEntry, IngestSummary};
 use crate::timeline::{Block, StreamFacts, Timeline};
 

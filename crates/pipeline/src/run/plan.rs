@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use ingest::{CardLook, Fingerprint};
+use ingest::{CardFingerprinter, Fingerprint};
 use model::{SessionStatus, Stage};
 
 use super::Halted;
@@ -47,14 +47,15 @@ pub(crate) struct RunContext<'a> {
     pub program: &'a str,
     /// SHA-256 of objects.csv.
     objects_csv: String,
-    pub fingerprinter: CardLook,
+    pub fingerprinter: CardFingerprinter,
 }
 
 impl<'a> RunContext<'a> {
     pub fn new(study: &'a Study, program: &'a str) -> Result<Self, Halted> {
         let objects = study.dir.join("objects.csv");
         let objects_csv = sha256_of_file(&objects).map_err(|source| Halted::Input { path: objects, source })?;
-        let fingerprinter = CardLook::new(&study.profile).map_err(|error| Halted::Ingest { error: Box::new(error) })?;
+        let fingerprinter =
+            CardFingerprinter::new(&study.profile).map_err(|error| Halted::Ingest { error: Box::new(error) })?;
         Ok(Self { study, program, objects_csv, fingerprinter })
     }
 

@@ -102,7 +102,7 @@ impl Worker<'_> {
         let parts = self.context.measure_parts(plan.dir, &prepared, &signals_key);
         let fingerprint = parts.fingerprint(plan.dir)?.settled();
         let measure_key = parts.key(plan.dir)?;
-        let search_key = keys::search_key(parts, plan.dir)?;
+        let search_key = parts.search_key(plan.dir)?;
         let is_kept = |kept: &Option<_>, key: &str| {
             kept.as_ref().is_some_and(|stage: &KeptStage| stage.key == key) && !self.force
         };

@@ -151,13 +151,25 @@ impl SignalsSpec {
     /// The settings that readings are made by.
     #[must_use]
     pub fn reading_settings(&self) -> ReadingSettings {
+        // Without `..`: a new key is either read by, and then in the key of the signals stage, or judged by.
+        let Self {
+            gravity_cutoff_hz,
+            gravity_calibration,
+            range_window_s,
+            range_min_mm,
+            range_max_mm,
+            range_update_s,
+            gravity_tolerance_mg: _,
+            stillness_max_mg: _,
+            range_cone: _,
+        } = *self;
         ReadingSettings {
-            gravity_cutoff_hz: self.gravity_cutoff_hz,
-            gravity_calibration: self.gravity_calibration,
-            range_window_s: self.range_window_s,
-            range_min_mm: self.range_min_mm,
-            range_max_mm: self.range_max_mm,
-            range_update_s: self.range_update_s,
+            gravity_cutoff_hz,
+            gravity_calibration,
+            range_window_s,
+            range_min_mm,
+            range_max_mm,
+            range_update_s,
         }
     }
 

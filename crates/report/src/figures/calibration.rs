@@ -8,7 +8,7 @@ use super::marks::{self, Drawn, Look, Mark, Symbol};
 use super::panel::Panel;
 use super::sample;
 use super::words::{counted, listed, named, number};
-use super::{Made, NO_TRUTH};
+use super::{Attempt, NO_TRUTH};
 use crate::parquet::Results;
 
 const NAME: &str = "calibration";
@@ -26,9 +26,9 @@ const MOST_BINS: usize = 6;
 const BELOW: f64 = 50.0;
 
 /// Absolute errors against predicted standard uncertainties, both logarithmic.
-pub(super) fn made(results: &Results) -> Made {
-    let claims = Claims::of(results);
-    let Some((x, y)) = domains(&claims) else { return Made::left_out(NAME, TITLE, NO_TRUTH) };
+pub(super) fn draw(results: &Results) -> Attempt {
+    let claims = Claims::from_results(results);
+    let Some((x, y)) = domains(&claims) else { return Attempt::left_out(NAME, TITLE, NO_TRUTH) };
     let kinds: std::collections::BTreeSet<_> = claims.all().iter().map(|claimed| claimed.row.kind).collect();
     let mut legend: Vec<Entry> =
         kinds.into_iter().map(|kind| Entry::new(Sample::Mark(sample::look(kind, false)), kind.code())).collect();
@@ -59,7 +59,7 @@ pub(super) fn made(results: &Results) -> Made {
             draw_count(&mut drawing, panel, rows.len());
         }
     }
-    Made::drawn(NAME, TITLE, [caption(&claims) + &drawn.remark(), alt(&claims)], drawing)
+    Attempt::drawn(NAME, TITLE, [caption(&claims) + &drawn.remark(), alt(&claims)], drawing)
 }
 
 /// Domains of uncertainty and error; none of no sizes.
@@ -76,8 +76,8 @@ fn domains(claims: &Claims<'_>) -> Option<([f64; 2], [f64; 2])> {
 
 fn mark<'a>(panel: &Panel, claimed: &'a Claimed<'a>) -> Mark<&'a Claimed<'a>> {
     Mark {
-        x: panel.x.at(claimed.sigma_mm),
-        y: panel.y.at(claimed.error_mm),
+        x: panel.x.place(claimed.sigma_mm),
+        y: panel.y.place(claimed.error_mm),
         look: sample::look(claimed.row.kind, false),
         weight: claimed.error_mm / claimed.sigma_mm,
         of: claimed,
@@ -115,7 +115,7 @@ fn bins(rows: &[&Claimed<'_>]) -> Vec<[f64; 2]> {
 
 fn draw_bins(drawing: &mut Drawing, panel: &Panel, bins: &[[f64; 2]]) {
     drawing.path("bins", BINNED, panel.line(bins.iter().copied()));
-    let symbols = bins.iter().map(|[sigma, error]| BIN.symbol.path(panel.x.at(*sigma), panel.y.at(*error)));
+    let symbols = bins.iter().map(|[sigma, error]| BIN.symbol.path(panel.x.place(*sigma), panel.y.place(*error)));
     drawing.path("bins", BIN.paint, symbols.collect());
 }
 

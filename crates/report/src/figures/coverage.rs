@@ -10,7 +10,7 @@ use super::panel::Panel;
 use super::sample::erring;
 use super::scale::is_drawable;
 use super::words::{listed, number};
-use super::{Made, NO_TRUTH};
+use super::{Attempt, NO_TRUTH};
 use crate::parquet::Results;
 
 const NAME: &str = "coverage";
@@ -45,7 +45,7 @@ pub(super) struct Claims<'a> {
 }
 
 impl<'a> Claims<'a> {
-    pub(super) fn of(results: &'a Results) -> Self {
+    pub(super) fn from_results(results: &'a Results) -> Self {
         let of_level = |level| {
             erring(&results.rows, level).filter(|erring| erring.row.doubts.is_empty()).filter_map(|erring| {
                 let sigma_mm = erring.row.sigma_mm.filter(|sigma| *sigma >= LEAST_SIGMA_MM && is_drawable(*sigma))?;
@@ -90,10 +90,10 @@ pub(super) const fn level_name(level: Level) -> &'static str {
 }
 
 /// Observed against claimed coverage of every method.
-pub(super) fn made(results: &Results) -> Made {
-    let claims = Claims::of(results);
+pub(super) fn draw(results: &Results) -> Attempt {
+    let claims = Claims::from_results(results);
     if claims.is_empty() {
-        return Made::left_out(NAME, TITLE, NO_TRUTH);
+        return Attempt::left_out(NAME, TITLE, NO_TRUTH);
     }
     let axis = Axis::linear([0.0, 100.0]);
     let grid = Grid {
@@ -118,7 +118,7 @@ pub(super) fn made(results: &Results) -> Made {
             draw_count(&mut drawing, panel, errors.len());
         }
     }
-    Made::drawn(NAME, TITLE, [caption(&claims), alt(&claims)], drawing)
+    Attempt::drawn(NAME, TITLE, [caption(&claims), alt(&claims)], drawing)
 }
 
 /// The values of k at which the curves are drawn.
@@ -144,8 +144,8 @@ fn draw_coverage(drawing: &mut Drawing, panel: &Panel, errors: &[f64]) {
     drawing.path("observed", OBSERVED, panel.line(curve().map(|k| [k, share_pct(errors, k)])));
     for k in [1.0, K_95] {
         let share = share_pct(errors, k);
-        let [low, high] = wilson(within(errors, k), errors.len()).map(|share| panel.y.at(100.0 * share));
-        let (x, y) = (panel.x.at(k), panel.y.at(share));
+        let [low, high] = wilson(within(errors, k), errors.len()).map(|share| panel.y.place(100.0 * share));
+        let (x, y) = (panel.x.place(k), panel.y.place(share));
         let whisker = |y: f64| format!("M{},{}h8", short(x - 4.0), short(y));
         let bar = format!("M{},{}V{}", short(x), short(low), short(high));
         drawing.path("interval", INTERVAL, bar + &whisker(low) + &whisker(high));

@@ -2,7 +2,7 @@
 
 use model::{Flow, FlowStep, FrameReason, FrameRow, StudyFlow};
 
-use super::Made;
+use super::Attempt;
 use super::drawing::{Anchor, Colour, Drawing, Paint, Text, short};
 use super::grid::PAGE;
 use super::legend::{self, Entry, Sample};
@@ -36,9 +36,9 @@ pub(super) struct Step {
 }
 
 /// The flow of all images.
-pub(super) fn made(frames: &[FrameRow]) -> Made {
+pub(super) fn draw(frames: &[FrameRow]) -> Attempt {
     if frames.is_empty() {
-        return Made::left_out(NAME, TITLE, NO_LEDGER);
+        return Attempt::left_out(NAME, TITLE, NO_LEDGER);
     }
     let mut study = StudyFlow::default();
     frames.iter().for_each(|frame| study.add(frame));
@@ -58,7 +58,7 @@ pub(super) fn made(frames: &[FrameRow]) -> Made {
         draw_step(&mut drawing, step, frames.len(), top);
         top += ROW + extra(step);
     }
-    Made::drawn(NAME, TITLE, [caption(frames.len(), sessions), alt(&steps)], drawing)
+    Attempt::drawn(NAME, TITLE, [caption(frames.len(), sessions), alt(&steps)], drawing)
 }
 
 pub(super) fn steps(flow: &Flow) -> Vec<Step> {
@@ -107,7 +107,7 @@ pub(super) fn lines(step: &Step, most: usize) -> Vec<String> {
 fn draw_step(drawing: &mut Drawing, step: &Step, found: usize, top: f64) {
     let scale = Scale::linear([0.0, found as f64], [LEFT, RIGHT]);
     let bar = |from: usize, to: usize| {
-        let [from, to] = [from, to].map(|images| short(scale.at(images as f64)));
+        let [from, to] = [from, to].map(|images| short(scale.place(images as f64)));
         format!("M{from},{}H{to}v{BAR}H{from}z", short(top))
     };
     if step.images > 0 {
@@ -118,7 +118,7 @@ fn draw_step(drawing: &mut Drawing, step: &Step, found: usize, top: f64) {
     }
     drawing.text(Text::new(LEFT - 8.0, top + 13.0, Anchor::End, step.heading));
     let words = format!("{} ({})", step.images, percent(step.images, found));
-    drawing.text(Text::new(scale.at(step.before as f64) + 6.0, top + 13.0, Anchor::Start, words).small());
+    drawing.text(Text::new(scale.place(step.before as f64) + 6.0, top + 13.0, Anchor::Start, words).small());
     for (index, line) in lines(step, LETTERS).iter().enumerate() {
         let y = top + BAR + 12.0 + LINE * index as f64;
         drawing.text(Text::new(LEFT, y, Anchor::Start, clean(line)).small());

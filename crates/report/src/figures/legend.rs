@@ -1,4 +1,4 @@
-//! What the shapes of a figure stand for.
+//! The meaning of the shapes of a figure, in words.
 
 use super::drawing::{Anchor, Drawing, Paint, Text, short};
 use super::marks::Look;

@@ -68,12 +68,12 @@ pub struct FigureLeftOut {
 }
 
 /// What became of a figure.
-enum Made {
+enum Attempt {
     Drawn { name: &'static str, title: &'static str, captions: [String; 2], drawing: Drawing },
     LeftOut(FigureLeftOut),
 }
 
-impl Made {
+impl Attempt {
     /// With its caption and its words for those who do not see it.
     const fn drawn(name: &'static str, title: &'static str, captions: [String; 2], drawing: Drawing) -> Self {
         Self::Drawn { name, title, captions, drawing }
@@ -92,31 +92,31 @@ impl Made {
 /// [`FigureError`].
 pub fn figures(results: &Results, frames: &[FrameRow]) -> Result<Figures, FigureError> {
     let mut figures = Figures { statement: results.metadata.statement.clone(), ..Figures::default() };
-    for made in all(results, frames) {
-        match made {
-            Made::Drawn { name, title, captions: [caption, alt], drawing } => {
+    for attempt in all(results, frames) {
+        match attempt {
+            Attempt::Drawn { name, title, captions: [caption, alt], drawing } => {
                 let text = |standalone: bool| drawing::svg(&drawing, [name, title, &alt], standalone);
                 let (svg, standalone) = (text(false)?, text(true)?);
                 let (name, title) = (name.to_owned(), title.to_owned());
                 figures.drawn.push(Figure { name, title, caption, alt, svg });
                 figures.standalone.push(standalone);
             }
-            Made::LeftOut(left_out) => figures.left_out.push(left_out),
+            Attempt::LeftOut(left_out) => figures.left_out.push(left_out),
         }
     }
     Ok(figures)
 }
 
-fn all(results: &Results, frames: &[FrameRow]) -> Vec<Made> {
+fn all(results: &Results, frames: &[FrameRow]) -> Vec<Attempt> {
     vec![
-        flow::made(frames),
-        pitch_and_range::made(results, frames),
-        selected::made(frames),
+        flow::draw(frames),
+        pitch_and_range::draw(results, frames),
+        selected::draw(frames),
         by_setup::by_pitch(results),
         by_setup::by_height(results),
-        bland_altman::made(results),
-        coverage::made(results),
-        calibration::made(results),
-        sizes::made(results),
+        bland_altman::draw(results),
+        coverage::draw(results),
+        calibration::draw(results),
+        sizes::draw(results),
     ]
 }

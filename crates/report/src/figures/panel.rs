@@ -45,25 +45,26 @@ impl Panel {
 
     /// Ticks below the panel, with their labels if they are to be `named`.
     pub(super) fn x_ticks(&self, drawing: &mut Drawing, ticks: &[Tick], named: bool) {
-        let tick = |tick: &Tick| format!("M{},{}v{TICK}", short(self.x.at(tick.value)), short(self.bottom()));
+        let tick = |tick: &Tick| format!("M{},{}v{TICK}", short(self.x.place(tick.value)), short(self.bottom()));
         drawing.path("axis", AXIS, ticks.iter().map(tick).collect());
         for tick in ticks.iter().filter(|_| named) {
             // At the right edge a label moves inwards: there may be another panel.
             let most = self.right() + 6.0 - 0.5 * estimated_width(&tick.label, 10.5);
-            let x = self.x.at(tick.value).min(most.max(self.left()));
+            let x = self.x.place(tick.value).min(most.max(self.left()));
             drawing.text(Text::new(x, self.bottom() + 16.0, Anchor::Middle, &tick.label).small());
         }
     }
 
     /// Ticks to the left of the panel with guides across it, and with their labels if they are to be `named`.
     pub(super) fn y_ticks(&self, drawing: &mut Drawing, ticks: &[Tick], named: bool) {
-        let guide =
-            |tick: &Tick| format!("M{},{}H{}", short(self.left()), short(self.y.at(tick.value)), short(self.right()));
+        let guide = |tick: &Tick| {
+            format!("M{},{}H{}", short(self.left()), short(self.y.place(tick.value)), short(self.right()))
+        };
         drawing.path("guide", GUIDE, ticks.iter().map(guide).collect());
-        let tick = |tick: &Tick| format!("M{},{}h-{TICK}", short(self.left()), short(self.y.at(tick.value)));
+        let tick = |tick: &Tick| format!("M{},{}h-{TICK}", short(self.left()), short(self.y.place(tick.value)));
         drawing.path("axis", AXIS, ticks.iter().map(tick).collect());
         for tick in ticks.iter().filter(|_| named) {
-            let text = Text::new(self.left() - 7.0, self.y.at(tick.value) + 3.8, Anchor::End, &tick.label);
+            let text = Text::new(self.left() - 7.0, self.y.place(tick.value) + 3.8, Anchor::End, &tick.label);
             drawing.text(text.small());
         }
     }
@@ -71,7 +72,7 @@ impl Panel {
     /// A line across the panel at a value of `y`.
     pub(super) fn level(&self, drawing: &mut Drawing, class: &'static str, paint: Paint, y: f64) {
         if self.y.holds(y) {
-            let path = format!("M{},{}H{}", short(self.left()), short(self.y.at(y)), short(self.right()));
+            let path = format!("M{},{}H{}", short(self.left()), short(self.y.place(y)), short(self.right()));
             drawing.path(class, paint, path);
         }
     }
@@ -79,20 +80,20 @@ impl Panel {
     /// A line from the lower to the upper edge at a value of `x`.
     pub(super) fn upright(&self, drawing: &mut Drawing, class: &'static str, paint: Paint, x: f64) {
         if self.x.holds(x) {
-            let path = format!("M{},{}V{}", short(self.x.at(x)), short(self.bottom()), short(self.top()));
+            let path = format!("M{},{}V{}", short(self.x.place(x)), short(self.bottom()), short(self.top()));
             drawing.path(class, paint, path);
         }
     }
 
     /// The path of a rectangle between values; what lies beyond the panel is not part of it.
     pub(super) fn rectangle(&self, x: [f64; 2], y: [f64; 2]) -> String {
-        let ([left, right], [low, high]) = (x.map(|x| self.x.at(x)), y.map(|y| self.y.at(y)));
+        let ([left, right], [low, high]) = (x.map(|x| self.x.place(x)), y.map(|y| self.y.place(y)));
         format!("M{},{}H{}V{}H{}z", short(left), short(low), short(right), short(high), short(left))
     }
 
     /// The path of a line through values that all lie in the panel, or at its edge.
     pub(super) fn line(&self, values: impl IntoIterator<Item = [f64; 2]>) -> String {
-        let place = |[x, y]: [f64; 2]| format!("{},{}", short(self.x.at(x)), short(self.y.at(y)));
+        let place = |[x, y]: [f64; 2]| format!("{},{}", short(self.x.place(x)), short(self.y.place(y)));
         let places: Vec<String> = values.into_iter().map(place).collect();
         if places.is_empty() { String::new() } else { format!("M{}", places.join("L")) }
     }

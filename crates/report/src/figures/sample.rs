@@ -11,13 +11,13 @@ use super::words::{named, signed};
 
 /// What was measured: a height, or across (diameter, width and length together, as in table `error_by_pitch`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct What {
+pub(super) struct Dimension {
     pub(super) kind: Kind,
     pub(super) is_height: bool,
 }
 
-impl What {
-    pub(super) fn of(row: &ResultRow) -> Self {
+impl Dimension {
+    pub(super) fn from_row(row: &ResultRow) -> Self {
         Self { kind: row.kind, is_height: row.quantity == Quantity::Height }
     }
 
@@ -80,20 +80,20 @@ pub(super) fn erring(rows: &[ResultRow], level: Level) -> impl Iterator<Item = E
 
 /// Rows by what was measured and by method.
 pub(super) struct Sorted<'a> {
-    pub(super) whats: Vec<What>,
+    pub(super) dimensions: Vec<Dimension>,
     pub(super) methods: Vec<Method>,
-    cells: BTreeMap<(What, Method), Vec<Erring<'a>>>,
+    cells: BTreeMap<(Dimension, Method), Vec<Erring<'a>>>,
 }
 
 impl<'a> Sorted<'a> {
     pub(super) fn new(rows: impl Iterator<Item = Erring<'a>>) -> Self {
-        let mut cells: BTreeMap<(What, Method), Vec<Erring<'a>>> = BTreeMap::new();
+        let mut cells: BTreeMap<(Dimension, Method), Vec<Erring<'a>>> = BTreeMap::new();
         for row in rows {
-            cells.entry((What::of(row.row), row.row.method)).or_default().push(row);
+            cells.entry((Dimension::from_row(row.row), row.row.method)).or_default().push(row);
         }
-        let whats: BTreeSet<What> = cells.keys().map(|(what, _)| *what).collect();
+        let dimensions: BTreeSet<Dimension> = cells.keys().map(|(dimension, _)| *dimension).collect();
         let methods: BTreeSet<Method> = cells.keys().map(|(_, method)| *method).collect();
-        Self { whats: whats.into_iter().collect(), methods: methods.into_iter().collect(), cells }
+        Self { dimensions: dimensions.into_iter().collect(), methods: methods.into_iter().collect(), cells }
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -104,13 +104,13 @@ impl<'a> Sorted<'a> {
         self.cells.values().map(Vec::len).sum()
     }
 
-    pub(super) fn cell(&self, what: What, method: Method) -> &[Erring<'a>] {
-        self.cells.get(&(what, method)).map_or(&[], Vec::as_slice)
+    pub(super) fn cell(&self, dimension: Dimension, method: Method) -> &[Erring<'a>] {
+        self.cells.get(&(dimension, method)).map_or(&[], Vec::as_slice)
     }
 
     /// All rows of what was measured, whatever the method.
-    pub(super) fn of_what(&self, what: What) -> impl Iterator<Item = &Erring<'a>> {
-        self.cells.iter().filter(move |((of, _), _)| *of == what).flat_map(|(_, rows)| rows)
+    pub(super) fn of_dimension(&self, dimension: Dimension) -> impl Iterator<Item = &Erring<'a>> {
+        self.cells.iter().filter(move |((of, _), _)| *of == dimension).flat_map(|(_, rows)| rows)
     }
 
     pub(super) fn all(&self) -> impl Iterator<Item = &Erring<'a>> {
@@ -123,7 +123,7 @@ impl<'a> Sorted<'a> {
 
     /// The kinds of container, for the legend.
     pub(super) fn kinds(&self) -> BTreeSet<Kind> {
-        self.whats.iter().map(|what| what.kind).collect()
+        self.dimensions.iter().map(|dimension| dimension.kind).collect()
     }
 }
 

@@ -32,7 +32,7 @@ impl Scale {
     }
 
     /// The place of a value; beyond the domain, its nearer end.
-    pub(super) fn at(&self, value: f64) -> f64 {
+    pub(super) fn place(&self, value: f64) -> f64 {
         let value = if self.logarithmic { value.max(f64::MIN_POSITIVE).log10() } else { value };
         let [low, high] = self.domain;
         let share = ((value - low) / (high - low)).clamp(0.0, 1.0);
@@ -203,7 +203,7 @@ mod tests {
             a.sort_by(f64::total_cmp);
             let domain = padded([a[0], a[2]], 0.05).unwrap();
             let scale = Scale::linear(domain, [300.0, 20.0]);
-            let places = a.map(|value| scale.at(value));
+            let places = a.map(|value| scale.place(value));
             prop_assert!(places[0] >= places[1] && places[1] >= places[2], "{places:?}");
             prop_assert!(places.iter().all(|place| (20.0..=300.0).contains(place)));
             let ticks = scale.ticks(most);
@@ -214,8 +214,8 @@ mod tests {
         #[test]
         fn logarithmic_places_too(value in 1e-6..1e6_f64, low in 1e-6..1.0_f64) {
             let scale = Scale::logarithmic([low, low * 1e4], [0.0, 100.0]);
-            prop_assert!((0.0..=100.0).contains(&scale.at(value)));
-            prop_assert!((scale.at(low * 1e2) - 50.0).abs() < 1e-6);
+            prop_assert!((0.0..=100.0).contains(&scale.place(value)));
+            prop_assert!((scale.place(low * 1e2) - 50.0).abs() < 1e-6);
             prop_assert!(!scale.ticks(5).is_empty());
         }
     }

@@ -2,7 +2,7 @@
 
 use model::{FlowStep, FrameRow, StudyFlow};
 
-use super::Made;
+use super::Attempt;
 use super::drawing::{Anchor, Colour, Drawing, Paint, Text, short};
 use super::flow::NO_LEDGER;
 use super::grid::PAGE;
@@ -29,9 +29,9 @@ struct Session {
 }
 
 /// A bar for each session, or how many sessions have which share.
-pub(super) fn made(frames: &[FrameRow]) -> Made {
+pub(super) fn draw(frames: &[FrameRow]) -> Attempt {
     if frames.is_empty() {
-        return Made::left_out(NAME, TITLE, NO_LEDGER);
+        return Attempt::left_out(NAME, TITLE, NO_LEDGER);
     }
     let mut study = StudyFlow::default();
     frames.iter().for_each(|frame| study.add(frame));
@@ -46,7 +46,7 @@ pub(super) fn made(frames: &[FrameRow]) -> Made {
         .collect();
     sessions.sort_by(|a, b| a.share_pct.total_cmp(&b.share_pct).then_with(|| a.name.cmp(&b.name)));
     let drawing = if sessions.len() > MOST_BARS { histogram(&sessions) } else { bars(&sessions) };
-    Made::drawn(NAME, TITLE, [caption(&sessions), alt(&sessions)], drawing)
+    Attempt::drawn(NAME, TITLE, [caption(&sessions), alt(&sessions)], drawing)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "a count of sessions is far below 2^53")]
@@ -57,7 +57,7 @@ fn bars(sessions: &[Session]) -> Drawing {
         Panel { x: Scale::linear([0.0, 100.0], [NAMES, PAGE - 84.0]), y: Scale::linear([0.0, 1.0], [bottom, 6.0]) };
     for (index, session) in sessions.iter().enumerate() {
         let top = 8.0 + BAR_HEIGHT * index as f64;
-        let end = panel.x.at(session.share_pct);
+        let end = panel.x.place(session.share_pct);
         let path = format!("M{},{}H{}v11H{}z", short(NAMES), short(top + 2.0), short(end), short(NAMES));
         drawing.path("kept", BAR, path);
         let full = named(&session.name);

@@ -15,7 +15,7 @@ pub(super) struct Window {
 
 impl Window {
     /// As the run resolved it; none where its metadata do not say.
-    pub(super) fn of(results: &Results) -> Option<Self> {
+    pub(super) fn from_results(results: &Results) -> Option<Self> {
         let select = results.metadata.settings.get("study")?.get("select")?;
         let number = |key: &str| select.get(key)?.as_f64().filter(|number| (0.0..=90.0).contains(number));
         let (target, tolerance) = (number("target_pitch_deg")?, number("pitch_tolerance_deg")?);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use model::{Level, Method, Quantity, ResultRow};
 
-use super::Made;
+use super::Attempt;
 use super::coverage::K_95;
 use super::drawing::{Anchor, Colour, Drawing, Paint, Text, short};
 use super::grid::PAGE;
@@ -49,12 +49,12 @@ struct Block<'a> {
 }
 
 /// Fused sizes of every object and quantity by one method, with 95 % intervals.
-pub(super) fn made(results: &Results) -> Made {
+pub(super) fn draw(results: &Results) -> Attempt {
     let fused = || results.rows.iter().filter(|row| row.level == Level::Fused && row.predicted_mm.is_some());
     // The method that the program would take, else the first that there is.
     let method =
         fused().map(|row| row.method).max_by_key(|method| (*method == Method::Best, std::cmp::Reverse(*method)));
-    let Some(method) = method else { return Made::left_out(NAME, TITLE, "no size is fused from selected images") };
+    let Some(method) = method else { return Attempt::left_out(NAME, TITLE, "no size is fused from selected images") };
     let blocks = blocks(fused().filter(|row| row.method == method));
     let all = blocks.iter().map(|block| block.sizes.len()).sum();
     let shown = &blocks[..blocks.len().min(MOST_PANELS)];
@@ -70,7 +70,7 @@ pub(super) fn made(results: &Results) -> Made {
         draw_block(&mut drawing, block, [left + names, left + COLUMN - 8.0], *place);
     }
     drawing.text(Text::new(0.5 * PAGE, height - 6.0, Anchor::Middle, "size (mm)"));
-    Made::drawn(NAME, TITLE, [caption(method, all, &blocks), alt(shown)], drawing)
+    Attempt::drawn(NAME, TITLE, [caption(method, all, &blocks), alt(shown)], drawing)
 }
 
 fn blocks<'a>(rows: impl Iterator<Item = &'a ResultRow>) -> Vec<Block<'a>> {
@@ -149,15 +149,15 @@ fn draw_block(drawing: &mut Drawing, block: &Block<'_>, [left, right]: [f64; 2],
 fn draw_size(drawing: &mut Drawing, panel: &Panel, size: &Size<'_>, y: f64) {
     let look = sample::look(size.row.kind, true);
     if let Some(half) = size.half_mm {
-        let [low, high] = [size.predicted_mm - half, size.predicted_mm + half].map(|end| short(panel.x.at(end)));
+        let [low, high] = [size.predicted_mm - half, size.predicted_mm + half].map(|end| short(panel.x.place(end)));
         let whisker = |x: &str| format!("M{x},{}v7", short(y - 3.5));
         let bar = format!("M{low},{}H{high}", short(y));
         drawing.path("interval", interval(look), bar + &whisker(&low) + &whisker(&high));
     }
     if let Some(truth) = truth(size) {
-        drawing.path("truth", TRUTH, format!("M{},{}v{LINE}", short(panel.x.at(truth)), short(y - 0.5 * LINE)));
+        drawing.path("truth", TRUTH, format!("M{},{}v{LINE}", short(panel.x.place(truth)), short(y - 0.5 * LINE)));
     }
-    drawing.path("marks", look.paint, look.symbol.path(panel.x.at(size.predicted_mm), y));
+    drawing.path("marks", look.paint, look.symbol.path(panel.x.place(size.predicted_mm), y));
 }
 
 const fn interval(look: Look) -> Paint {

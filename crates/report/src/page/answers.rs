@@ -17,7 +17,7 @@ pub(super) struct Answers<'a> {
 
 impl<'a> Answers<'a> {
     /// None without a size.
-    pub(super) fn of(rows: &'a [ResultRow]) -> Option<Self> {
+    pub(super) fn from_rows(rows: &'a [ResultRow]) -> Option<Self> {
         let measured = |level| {
             let counts = move |row: &&ResultRow| row.level == level && row.selected && row.predicted_mm.is_some();
             rows.iter().filter(counts).collect::<Vec<_>>()

@@ -16,7 +16,7 @@ pub(super) struct FigureView<'a> {
 }
 
 impl<'a> FigureView<'a> {
-    pub(super) fn of(figure: &'a Figure) -> Self {
+    pub(super) fn from_figure(figure: &'a Figure) -> Self {
         let elements = figure.svg.bytes().filter(|byte| *byte == b'<').count();
         Self { figure, source: (elements > MOST_ELEMENTS).then(|| source(&figure.svg)) }
     }

@@ -83,21 +83,21 @@ impl Page<'_> {
         let metadata = &self.results.metadata;
         let asked = metadata.tables.len().min(tables.len());
         let with_files =
-            |tables: &[Table]| tables.iter().map(|table| TableView::of(table, true)).collect::<Result<_, _>>();
-        let summary = Summary::of(self.results);
-        let bare = |table: &Table| TableView::of(table, false);
+            |tables: &[Table]| tables.iter().map(|table| TableView::from_table(table, true)).collect::<Result<_, _>>();
+        let summary = Summary::from_results(self.results);
+        let bare = |table: &Table| TableView::from_table(table, false);
         let page = PageTemplate {
-            policy: policy::of(SCRIPT),
+            policy: policy::content_security_policy(SCRIPT),
             style: STYLE,
             script: SCRIPT,
             answers: summary.answers.iter().map(bare).collect::<Result<_, _>>()?,
             summary,
             asked: with_files(&tables[..asked])?,
             more: with_files(&tables[asked..])?,
-            figures: self.figures.drawn.iter().map(FigureView::of).collect(),
+            figures: self.figures.drawn.iter().map(FigureView::from_figure).collect(),
             figures_left_out: &self.figures.left_out,
             status: status::tables(metadata).iter().map(bare).collect::<Result<_, _>>()?,
-            provenance: Provenance::of(metadata, self.log)?,
+            provenance: Provenance::from_metadata(metadata, self.log)?,
             measurements_json: data::script_json(&measurements::grid(&self.results.rows))?,
             pictures: self.pictures.len(),
             pictures_json: data::script_json(&self.pictures.index())?,

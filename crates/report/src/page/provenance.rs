@@ -16,7 +16,7 @@ pub(super) struct Provenance {
 }
 
 impl Provenance {
-    pub(super) fn of(metadata: &RunMetadata, log: Option<&RunLog>) -> Result<Self, serde_json::Error> {
+    pub(super) fn from_metadata(metadata: &RunMetadata, log: Option<&RunLog>) -> Result<Self, serde_json::Error> {
         let mut settings = Vec::new();
         flatten(&metadata.settings, String::new(), &mut settings);
         let inputs = metadata.inputs_sha256.iter().map(|(path, hash)| (path.clone(), hash.clone())).collect();
@@ -91,7 +91,7 @@ fn pairs(
         remarks: Vec::new(),
         statement: None,
     };
-    TableView::of(&table, false)
+    TableView::from_table(&table, false)
 }
 
 #[cfg(test)]

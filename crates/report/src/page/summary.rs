@@ -27,8 +27,8 @@ pub(super) struct Card {
 }
 
 impl Summary {
-    pub(super) fn of(results: &Results) -> Self {
-        let answers = Answers::of(&results.rows);
+    pub(super) fn from_results(results: &Results) -> Self {
+        let answers = Answers::from_rows(&results.rows);
         let mut sentences = vec![images_sentence(results)];
         sentences.extend(answers.iter().flat_map(Answers::sentences));
         let mut cards = vec![sessions_card(results), images_card(results), objects_card(&results.rows)];

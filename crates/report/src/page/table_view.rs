@@ -48,7 +48,7 @@ pub(super) struct CellView {
 }
 
 impl TableView {
-    pub(super) fn of(table: &Table, has_files: bool) -> Result<Self, serde_json::Error> {
+    pub(super) fn from_table(table: &Table, has_files: bool) -> Result<Self, serde_json::Error> {
         let is_long = table.rows.len() > LONG;
         let rows = if is_long { &table.rows[..SHOWN_OF_LONG] } else { &table.rows[..] };
         let is_number = |align: Align| align == Align::Right;

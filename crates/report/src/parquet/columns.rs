@@ -98,7 +98,7 @@ pub(super) enum Cells {
 
 impl Cells {
     /// The column of `frame` that the schema calls `column`; its type is checked by the caller.
-    pub(super) fn of(frame: &DataFrame, column: &SchemaColumn) -> PolarsResult<Self> {
+    pub(super) fn from_column(frame: &DataFrame, column: &SchemaColumn) -> PolarsResult<Self> {
         let series = frame.column(column.name)?.as_materialized_series();
         Ok(match column.column_type {
             ColumnType::Text => Self::Text(series.str()?.clone()),

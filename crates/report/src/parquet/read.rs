@@ -185,8 +185,11 @@ pub(super) fn read_rows_and<R: Row, M>(
     for column in R::COLUMNS {
         check_column(&frame, column, path)?;
     }
-    let cells: Vec<Cells> =
-        R::COLUMNS.iter().map(|column| Cells::of(&frame, column)).collect::<Result<_, _>>().map_err(not_parquet)?;
+    let cells: Vec<Cells> = R::COLUMNS
+        .iter()
+        .map(|column| Cells::from_column(&frame, column))
+        .collect::<Result<_, _>>()
+        .map_err(not_parquet)?;
     let rows = (0..frame.height())
         .map(|row| {
             R::from_values(cells.iter().map(|column| column.get(row))).map_err(|(column, source)| ReadError::Cell {

@@ -27,7 +27,7 @@ pub(super) struct RowFile<R> {
 
 impl<R: Row> RowFile<R> {
     pub(super) fn create(path: &Path) -> Result<Self, SinkError> {
-        let aside = Aside::of(path)?;
+        let aside = Aside::create(path)?;
         let handle = aside.file().try_clone().map_err(|source| FileError::Create { path: path.to_owned(), source })?;
         let schema: Schema =
             R::COLUMNS.iter().map(|column| Field::new(column.name.into(), data_type(column.column_type))).collect();

@@ -20,7 +20,7 @@ pub(super) struct Notes<'a> {
 }
 
 impl<'a> Notes<'a> {
-    pub(super) fn of(spec: &'a TableSpec) -> Self {
+    pub(super) fn from_spec(spec: &'a TableSpec) -> Self {
         Self { left: spec.notes.iter().map(|note| (note, false)).collect() }
     }
 

@@ -11,7 +11,7 @@ pub(super) struct Setup {
 
 impl Setup {
     /// The setup, if both numbers are there.
-    pub(super) fn of(height_mm: Option<f64>, pitch_deg: Option<f64>) -> Option<Self> {
+    pub(super) fn from_nominal(height_mm: Option<f64>, pitch_deg: Option<f64>) -> Option<Self> {
         Some(Self { height_mm: height_mm?, pitch_deg: pitch_deg? })
     }
 

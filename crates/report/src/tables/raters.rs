@@ -61,7 +61,7 @@ pub(super) fn table(spec: &TableSpec, results: &Results) -> Table {
     let lines: Vec<Line<'_>> = groups.into_iter().map(|group| Line::new(group, &raters, spec)).collect();
     let with_printed_truth = lines.iter().any(Line::is_printed_truth_other);
 
-    let mut notes = Notes::of(spec);
+    let mut notes = Notes::from_spec(spec);
     let mut rows: Vec<NotedRow> = lines.iter().map(|line| line_row(line, &raters, &mut notes)).collect();
     let errors: Vec<f64> = lines.iter().filter_map(Line::error_pct).collect();
     let ours = Summary::population(&errors);

@@ -36,7 +36,7 @@ impl Line<'_> {
 
 pub(super) fn table(spec: &TableSpec, results: &Results) -> Table {
     let groups = groups(spec, &results.rows, Level::Frame);
-    let mut notes = Notes::of(spec);
+    let mut notes = Notes::from_spec(spec);
     let mut rows = Vec::new();
     let mut all_errors = Vec::new();
     for group in &groups {
@@ -77,7 +77,7 @@ fn lines<'a>(group: &Group<'a>, spec: &'a TableSpec) -> Vec<Line<'a>> {
     let printed = if group.is_first { printed::rows(spec, group.object) } else { Vec::new() };
     let mut lines: Vec<Line<'a>> = Vec::new();
     for row in &group.rows {
-        let Some(setup) = Setup::of(row.setup_height_mm, row.setup_pitch_deg) else { continue };
+        let Some(setup) = Setup::from_nominal(row.setup_height_mm, row.setup_pitch_deg) else { continue };
         match lines.iter_mut().find(|line| line.rater == row.rater && line.setup.is_some_and(|known| known.is(setup))) {
             Some(line) => line.rows.push(row),
             None => lines.push(Line { setup: Some(setup), rater: &row.rater, rows: vec![row], printed: None }),
@@ -89,7 +89,7 @@ fn lines<'a>(group: &Group<'a>, spec: &'a TableSpec) -> Vec<Line<'a>> {
     // A table of selected frames leaves out setups on purpose; any other that lacks one has lost it.
     if spec.selection == Selection::All {
         for row in printed {
-            let setup = Setup::of(row.setup_height_mm, row.setup_pitch_deg);
+            let setup = Setup::from_nominal(row.setup_height_mm, row.setup_pitch_deg);
             if !lines.iter().any(|line| is_printed_for(row, line.setup, line.rater)) {
                 let rater = row.rater.as_deref().unwrap_or_default();
                 lines.push(Line { setup, rater, rows: Vec::new(), printed: Some(row) });
@@ -108,7 +108,7 @@ fn lines<'a>(group: &Group<'a>, spec: &'a TableSpec) -> Vec<Line<'a>> {
 }
 
 fn is_printed_for(row: &PrintedRow, setup: Option<Setup>, rater: &str) -> bool {
-    let same_setup = match (Setup::of(row.setup_height_mm, row.setup_pitch_deg), setup) {
+    let same_setup = match (Setup::from_nominal(row.setup_height_mm, row.setup_pitch_deg), setup) {
         (Some(printed), Some(measured)) => printed.is(measured),
         _ => false,
     };

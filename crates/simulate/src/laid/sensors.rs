@@ -73,7 +73,7 @@ fn to_count(value: f64) -> i16 {
 
 impl Plan {
     fn head_at(&self, time_s: f64) -> Option<HeadPose> {
-        Some(sway(self.motion.at(time_s)?, self.sway_deg, self.number, time_s))
+        Some(sway(self.motion.pose_at(time_s)?, self.sway_deg, self.number, time_s))
     }
 
     fn packet_starts_s(&self, first_s: f64) -> impl Iterator<Item = f64> + use<> {

@@ -109,7 +109,7 @@ impl Damage {
     }
 
     /// What is written in place of a file's `bytes`; none if it is not written at all.
-    pub(super) fn of(self, file: SessionFile, mut bytes: Vec<u8>, random: &mut ChaCha8Rng) -> Option<Vec<u8>> {
+    pub(super) fn apply(self, file: SessionFile, mut bytes: Vec<u8>, random: &mut ChaCha8Rng) -> Option<Vec<u8>> {
         use SessionFile::{Marks, Packets, Picture, Toml};
         const ACCELERATION: Sensor = Sensor::Acceleration;
         let is_harmed = |at: usize| at.is_multiple_of(PICTURES_HARMED_EVERY);

@@ -44,7 +44,7 @@ struct DamagedRow<'a> {
 }
 
 impl<'a> DamagedRow<'a> {
-    fn of(session: &'a Session) -> Option<Self> {
+    fn from_session(session: &'a Session) -> Option<Self> {
         let kind = session.damage?;
         Some(Self { session: &session.name, kind, code: kind.code() })
     }
@@ -97,6 +97,6 @@ fn write_study_files(folder: &StudyFolder, camera_file: &str, sessions: &[Sessio
     folder.write("study.toml", include_bytes!("study.toml"))?;
     folder.write(CAMERA_FILE, camera_file.as_bytes())?;
     folder.write_csv("objects.csv", &OBJECTS.map(|object| object.row()))?;
-    let damaged: Vec<_> = sessions.iter().filter_map(DamagedRow::of).collect();
+    let damaged: Vec<_> = sessions.iter().filter_map(DamagedRow::from_session).collect();
     if damaged.is_empty() { Ok(()) } else { folder.write_csv("damaged.csv", &damaged) }
 }

@@ -122,7 +122,7 @@ struct Files<'a> {
 impl Files<'_> {
     fn write(&mut self, file: SessionFile, path: &str, bytes: Vec<u8>) -> Result<(), SimulateError> {
         let left = match self.damage {
-            Some(damage) => damage.of(file, bytes, &mut self.random),
+            Some(damage) => damage.apply(file, bytes, &mut self.random),
             None => Some(bytes),
         };
         left.map_or(Ok(()), |bytes| self.folder.write(path, &bytes))

@@ -36,7 +36,7 @@ impl Bowl {
 
     fn hit_rim(&self, ray: &Ray) -> Option<Hit> {
         let distance = ray.to_level(self.height_mm)?;
-        let radius = self.axis_distance_mm(ray.at(distance));
+        let radius = self.axis_distance_mm(ray.point_at(distance));
         ((1.0 - RIM_SHARE) * self.rim_radius_mm..=self.rim_radius_mm).contains(&radius).then_some(Hit {
             distance,
             part: Part::Rim,
@@ -47,7 +47,7 @@ impl Bowl {
 
     fn hit_floor(&self, ray: &Ray) -> Option<Hit> {
         let distance = ray.to_level(0.0)?;
-        let share = self.axis_distance_mm(ray.at(distance)) / self.foot_radius_mm;
+        let share = self.axis_distance_mm(ray.point_at(distance)) / self.foot_radius_mm;
         let openness = 0.9 - 0.12 * share.powi(4);
         (share <= 1.0).then_some(Hit { distance, part: Part::Floor, normal: Vector3::z(), openness })
     }
@@ -63,13 +63,13 @@ impl Bowl {
         let root = (half_b * half_b - a * c).sqrt(); // NaN: the ray misses
         [(-half_b - root) / a, (-half_b + root) / a]
             .into_iter()
-            .filter(|&distance| distance > 0.0 && (0.0..=self.height_mm).contains(&ray.at(distance).z))
+            .filter(|&distance| distance > 0.0 && (0.0..=self.height_mm).contains(&ray.point_at(distance).z))
             .min_by(f64::total_cmp)
             .map(|distance| self.wall_at(ray, distance))
     }
 
     fn wall_at(&self, ray: &Ray, distance: f64) -> Hit {
-        let point = ray.at(distance);
+        let point = ray.point_at(distance);
         let outwards = (point.xy() - self.center_mm).push(0.0).normalize();
         let outer_normal = (outwards - Vector3::z() * self.flare()).normalize();
         let height_share = point.z / self.height_mm;

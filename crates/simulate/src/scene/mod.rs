@@ -44,7 +44,7 @@ pub struct Ray {
 }
 
 impl Ray {
-    pub(crate) fn at(&self, distance: f64) -> Point3<f64> {
+    pub(crate) fn point_at(&self, distance: f64) -> Point3<f64> {
         self.origin + self.direction * distance
     }
 
@@ -92,7 +92,7 @@ impl Scene {
         }
         match ray.to_level(0.0) {
             Some(distance) => {
-                let point = ray.at(distance).xy();
+                let point = ray.point_at(distance).xy();
                 let light = self.light_on_table(point);
                 (Part::Table, table::colour_at(point).map(|c| c * light))
             }

@@ -40,7 +40,7 @@ impl Plate {
 
     pub(super) fn hit(&self, ray: &Ray) -> Option<Hit> {
         let distance = ray.to_level(0.0)?;
-        let (reach, outwards) = self.reach(ray.at(distance).xy());
+        let (reach, outwards) = self.reach(ray.point_at(distance).xy());
         if reach > 1.0 {
             return None;
         }

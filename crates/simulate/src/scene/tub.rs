@@ -32,7 +32,7 @@ impl Tub {
 
     fn hit_rim(&self, ray: &Ray) -> Option<Hit> {
         let distance = ray.to_level(self.height_mm)?;
-        (0.0..=RIM_MM).contains(&self.depth_inside(ray.at(distance).xy())).then_some(Hit {
+        (0.0..=RIM_MM).contains(&self.depth_inside(ray.point_at(distance).xy())).then_some(Hit {
             distance,
             part: Part::Rim,
             normal: Vector3::z(),
@@ -42,7 +42,7 @@ impl Tub {
 
     fn hit_floor(&self, ray: &Ray) -> Option<Hit> {
         let distance = ray.to_level(0.0)?;
-        let depth = self.depth_inside(ray.at(distance).xy());
+        let depth = self.depth_inside(ray.point_at(distance).xy());
         let openness = 0.92 - 0.14 * (-depth / (0.5 * self.height_mm)).exp();
         (depth >= 0.0).then_some(Hit { distance, part: Part::Floor, normal: Vector3::z(), openness })
     }
@@ -54,7 +54,7 @@ impl Tub {
         if !(distance > 0.0 && distance.is_finite()) {
             return None;
         }
-        let point = ray.at(distance);
+        let point = ray.point_at(distance);
         let other = 1 - axis;
         let on_wall = (point[other] - self.center_mm[other]).abs() <= self.half_size_mm[other];
         if !on_wall || !(0.0..=self.height_mm).contains(&point.z) {

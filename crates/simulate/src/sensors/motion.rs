@@ -29,7 +29,7 @@ impl Motion {
 
     /// The pose at a time; before the first and after the last rest the head keeps still. None without any rest.
     #[must_use]
-    pub fn at(&self, time_s: f64) -> Option<HeadPose> {
+    pub fn pose_at(&self, time_s: f64) -> Option<HeadPose> {
         let next = self.rests.partition_point(|(rest_s, _)| *rest_s <= time_s);
         let (Some(before), after) = (self.rests.get(next.saturating_sub(1)), self.rests.get(next)) else {
             return None;

@@ -34,7 +34,7 @@ impl RangeSensor {
             let noise_mm = random.random_range(-NOISE_MM..=NOISE_MM).round();
             let no_target = random.random_bool(NO_TARGET_SHARE);
             for (offset_mm, lost) in [(noise_mm, false), (0.0, no_target), (-noise_mm, false)] {
-                readings.push(match motion.at(time_s(readings.len())) {
+                readings.push(match motion.pose_at(time_s(readings.len())) {
                     Some(pose) if !lost => to_count(pose, offset_mm),
                     _ => NO_TARGET,
                 });
@@ -50,7 +50,7 @@ impl RangeSensor {
         clippy::cast_sign_loss,
         reason = "an index; times before 0 give the first"
     )]
-    pub fn at(&self, time_s: f64) -> i16 {
+    pub fn reading_at(&self, time_s: f64) -> i16 {
         self.readings.get((time_s / READING_PERIOD_S) as usize).copied().unwrap_or(NO_TARGET)
     }
 }

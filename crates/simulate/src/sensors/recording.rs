@@ -31,7 +31,7 @@ impl Recording<'_> {
         let packet = |first_s: f64| {
             let mut channels = vec![Vec::new(); 4];
             for time_s in packet_sample_times_s(first_s) {
-                let [x, y, z] = self.motion.at(time_s).map_or([-1; 3], |pose| sensor.sample(pose));
+                let [x, y, z] = self.motion.pose_at(time_s).map_or([-1; 3], |pose| sensor.sample(pose));
                 channels.iter_mut().zip([x, y, z, 0]).for_each(|(channel, count)| channel.push(count));
             }
             encode_packet(posix_s(self.start) + first_s, &channels)
@@ -46,7 +46,7 @@ impl Recording<'_> {
         let end_s = starts_s.last().map_or(0.0, |last_s| last_s + PACKET_PERIOD_S);
         let sensor = RangeSensor::record(random, self.motion, end_s);
         let packet = |first_s: f64| {
-            let counts = packet_sample_times_s(first_s).map(|time_s| sensor.at(time_s)).collect();
+            let counts = packet_sample_times_s(first_s).map(|time_s| sensor.reading_at(time_s)).collect();
             encode_packet(posix_s(self.start) + first_s, &[counts])
         };
         starts_s.into_iter().map(packet).collect()

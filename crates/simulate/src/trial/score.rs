@@ -95,7 +95,7 @@ fn line((level, quantity, subject, method): Key, group: &[&Trial]) -> Option<Lin
 impl Score {
     /// The line of one sort.
     #[must_use]
-    pub fn of(&self, level: Level, quantity: Quantity, subject: Option<Subject>, method: Method) -> Option<&Line> {
+    pub fn line(&self, level: Level, quantity: Quantity, subject: Option<Subject>, method: Method) -> Option<&Line> {
         let same =
             |line: &&Line| (line.level, line.quantity, line.subject, line.method) == (level, quantity, subject, method);
         self.lines.iter().find(same)

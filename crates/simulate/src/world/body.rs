@@ -155,7 +155,7 @@ fn capsule(ray: &Ray, [a, b]: [Point3<f64>; 2], radius: f64, least: f64) -> Opti
         }
     };
     for distance in roots(d.norm_squared(), o.dot(&d), o.norm_squared() - radius * radius).into_iter().flatten() {
-        if (0.0..=length).contains(&(ray.at(distance) - a).dot(&axis)) {
+        if (0.0..=length).contains(&(ray.point_at(distance) - a).dot(&axis)) {
             offer(distance);
         }
     }
@@ -163,13 +163,13 @@ fn capsule(ray: &Ray, [a, b]: [Point3<f64>; 2], radius: f64, least: f64) -> Opti
         let o = ray.origin - end;
         let c = o.norm_squared() - radius * radius;
         for distance in roots(ray.direction.norm_squared(), o.dot(&ray.direction), c).into_iter().flatten() {
-            if is_beyond * (ray.at(distance) - end).dot(&axis) >= 0.0 {
+            if is_beyond * (ray.point_at(distance) - end).dot(&axis) >= 0.0 {
                 offer(distance);
             }
         }
     }
     let distance = best?;
-    let point = ray.at(distance);
+    let point = ray.point_at(distance);
     let on_axis = a + axis * (point - a).dot(&axis).clamp(0.0, length);
     Some(Touch { distance, normal: (point - on_axis).normalize() })
 }

@@ -49,7 +49,7 @@ impl World {
     }
 
     fn seen(&self, ray: &Ray, meeting: &Meeting, lamp_at: [f64; 2], turns: u32) -> (Rgb, bool) {
-        let point = ray.at(meeting.touch.distance);
+        let point = ray.point_at(meeting.touch.distance);
         let to_eye = -ray.direction.normalize();
         let normal = meeting.touch.normal * if meeting.touch.normal.dot(&to_eye) < 0.0 { -1.0 } else { 1.0 };
         let (material, own) = match meeting.what {
@@ -60,7 +60,7 @@ impl World {
             What::Table => (&self.table, point),
             What::Body(at) => (&self.bodies[at].material, self.bodies[at].own(point)),
         };
-        let colour = material.texture.at(own);
+        let colour = material.texture.colour_at(own);
         if material.glows {
             return (colour, true);
         }

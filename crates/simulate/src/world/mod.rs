@@ -72,7 +72,7 @@ impl World {
         }
         for (level, what) in [(0.0, What::Table), (FLOOR_Z_MM, What::Floor)] {
             let distance = (level - ray.origin.z) / ray.direction.z;
-            let is_there = what == What::Floor || self.is_table(ray.at(distance).xy());
+            let is_there = what == What::Floor || self.is_table(ray.point_at(distance).xy());
             if distance > least && is_there && best.is_none_or(|best| distance < best.touch.distance) {
                 best = Some(Meeting { touch: Touch { distance, normal: Vector3::z() }, what });
             }

@@ -27,7 +27,7 @@ fn a_ball_is_a_ball_whatever_makes_it() {
         let target = center + Vector3::new(unit(3), unit(4), unit(5)) * 25.0;
         let ray = Ray { origin, direction: (target - origin).normalize() };
         let met: Vec<_> = forms.iter().map(|form| form.touch(&ray, 0.0).unwrap()).collect();
-        let radius = (ray.at(met[0].distance) - center).norm();
+        let radius = (ray.point_at(met[0].distance) - center).norm();
         assert!((radius - 50.0).abs() < 1e-9);
         for other in &met[1..] {
             assert!((other.distance - met[0].distance).abs() < 0.02, "{met:?}");

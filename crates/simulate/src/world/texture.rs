@@ -68,7 +68,7 @@ pub enum Texture {
 
 impl Texture {
     /// The colour at a point.
-    pub(super) fn at(&self, p: Point3<f64>) -> Rgb {
+    pub(super) fn colour_at(&self, p: Point3<f64>) -> Rgb {
         match *self {
             Self::Plain(colour) => colour,
             Self::Wood { colours, board_mm, seed } => wood(p, colours, board_mm, seed),

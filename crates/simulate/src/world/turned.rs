@@ -77,7 +77,7 @@ impl Turned {
             }
         }
         let (distance, piece, share) = best?;
-        let outward = (ray.at(distance).xy() - self.axis_mm).try_normalize(1e-9).unwrap_or_else(Vector2::x);
+        let outward = (ray.point_at(distance).xy() - self.axis_mm).try_normalize(1e-9).unwrap_or_else(Vector2::x);
         let normal = piece.normals[0].lerp(&piece.normals[1], share).normalize();
         let normal = Vector3::new(outward.x * normal.x, outward.y * normal.x, normal.y);
         Some(Touch { distance, normal })

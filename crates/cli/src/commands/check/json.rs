@@ -48,7 +48,7 @@ struct Steps {
 }
 
 impl Steps {
-    fn of(flow: &Flow) -> Self {
+    fn from_flow(flow: &Flow) -> Self {
         let left_out = FrameReason::ALL.iter().filter(|reason| reason.ends().is_some());
         Self {
             steps: FlowStep::ALL.iter().map(|step| (step.code(), flow.images_at(*step))).collect(),
@@ -64,9 +64,9 @@ impl Steps {
 pub fn text(study: &Study, checked: &Checked) -> serde_json::Result<String> {
     let flows: BTreeMap<&str, &Flow> = checked.flow.sessions().collect();
     let session = |status| Session {
-        verdict: Verdict::of(status),
+        verdict: Verdict::from_status(status),
         status,
-        flow: flows.get(status.session.as_str()).map(|flow| Steps::of(flow)),
+        flow: flows.get(status.session.as_str()).map(|flow| Steps::from_flow(flow)),
     };
     serde_json::to_string_pretty(&Document {
         schema_version: SCHEMA_VERSION,
@@ -80,6 +80,6 @@ pub fn text(study: &Study, checked: &Checked) -> serde_json::Result<String> {
         },
         sessions: checked.sessions.iter().map(session).collect(),
         study_problems: &checked.study,
-        flow: Steps::of(&checked.flow.total()),
+        flow: Steps::from_flow(&checked.flow.total()),
     })
 }

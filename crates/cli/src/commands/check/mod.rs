@@ -6,11 +6,32 @@ mod text;
 use anyhow::anyhow;
 use model::{RunMetadata, SessionStatus};
 use pipeline::{Checked, Study, SurveyOptions};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
+use super::settings::SettingsArgs;
 use super::{PROGRAM, outcome, print, settings, stop_on_signals, survey_failure};
-use crate::args::CheckArgs;
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
+
+/// `check`.
+#[derive(Debug, clap::Args)]
+pub struct CheckArgs {
+    /// Folder of the study (docs/study.md); nothing is written into it
+    pub study: PathBuf,
+    /// Sessions at a time; default: the cores that this process may use
+    #[arg(short, long, env = "AIM_BATCH_JOBS")]
+    pub jobs: Option<NonZeroUsize>,
+    /// Also show what is worth knowing and costs nothing
+    #[arg(long)]
+    pub notes: bool,
+    /// JSON on stdout (docs/inspect.md)
+    #[arg(long)]
+    pub json: bool,
+    /// Settings in place of study.toml's
+    #[command(flatten)]
+    pub settings: SettingsArgs,
+}
 
 /// Checks the study, and tells what would be lost.
 pub fn run(args: &CheckArgs, bars: &Bars) -> Result<Outcome, Failure> {
@@ -53,7 +74,7 @@ enum Verdict {
 }
 
 impl Verdict {
-    fn of(session: &SessionStatus) -> Self {
+    fn from_status(session: &SessionStatus) -> Self {
         match (session.failed, session.has_losses()) {
             (true, _) => Self::Fails,
             (false, true) => Self::LosesData,
@@ -71,6 +92,6 @@ impl Verdict {
 
     /// Number of sessions with this verdict.
     fn count(self, sessions: &[SessionStatus]) -> usize {
-        sessions.iter().filter(|session| Self::of(session) == self).count()
+        sessions.iter().filter(|session| Self::from_status(session) == self).count()
     }
 }

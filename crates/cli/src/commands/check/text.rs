@@ -37,7 +37,7 @@ fn push_session(text: &mut String, session: &SessionStatus, with_notes: bool) {
         _ if with_notes => String::new(),
         notes => format!(" (and {})", count(notes, "note")),
     };
-    let _ = writeln!(text, "{}: {}{hidden}", session.session, Verdict::of(session).words());
+    let _ = writeln!(text, "{}: {}{hidden}", session.session, Verdict::from_status(session).words());
     push_problems(text, told(Severity::Loss).chain(told(Severity::Note).filter(|_| with_notes)));
     text.push('\n');
 }

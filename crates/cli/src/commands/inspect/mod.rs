@@ -7,7 +7,8 @@ mod words;
 
 use std::fs::File;
 use std::io::Read;
-use std::path::Path;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use model::Problem;
@@ -16,9 +17,22 @@ use pipeline::{Study, SurveyOptions, inspect_file, inspect_study};
 use serde::Serialize;
 
 use super::{PROGRAM, outcome, print, stop_on_signals, survey_failure};
-use crate::args::InspectArgs;
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
+
+/// `inspect`.
+#[derive(Debug, clap::Args)]
+pub struct InspectArgs {
+    /// MCAP file that ingest or run wrote, or folder of a study; nothing is written there
+    #[arg(value_name = "FILE|STUDY")]
+    pub path: PathBuf,
+    /// Sessions of a study at a time; default: the cores that this process may use
+    #[arg(short, long, env = "AIM_BATCH_JOBS")]
+    pub jobs: Option<NonZeroUsize>,
+    /// JSON on stdout (docs/inspect.md)
+    #[arg(long)]
+    pub json: bool,
+}
 
 /// Rises when a key is removed, renamed, or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;

@@ -8,10 +8,10 @@ use model::{Container, Kind, MeasureError, Method, Quantity, Shape, View, estima
 use pipeline::labelme;
 use pipeline::study::UncertaintySpec;
 
-use super::super::{outcome, print, tell};
+use super::super::{outcome, print, print_message};
+use super::args::MeasureArgs;
 use super::overlay;
 use super::size::{Size, describe, text};
-use crate::args::MeasureArgs;
 use crate::exit::{Failure, Outcome};
 
 /// The methods, the one with fewer assumptions first.
@@ -40,7 +40,7 @@ pub fn run(args: &MeasureArgs, view: &View, picture: &[u8], marks_file: &Path, k
     overlay::of_marked(args, view, picture, &container, &marks.objects, &sizes)?;
     print(&if args.json { format!("{}\n", serde_json::to_string_pretty(&sizes)?) } else { text(&sizes, &inputs) })?;
     for object in marks.objects.iter().filter(|object| !object.inside_picture(view.camera().size_px())) {
-        tell(&format!("warning: marks of '{}' lie outside the picture\n", object.object));
+        print_message(&format!("warning: marks of '{}' lie outside the picture\n", object.object));
     }
     let mut lost = !marks.refused.is_empty();
     for refused in &marks.refused {

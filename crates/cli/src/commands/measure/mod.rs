@@ -1,5 +1,6 @@
 //! `measure`: sizes of what is marked, or found, in one picture.
 
+mod args;
 mod auto;
 mod marked;
 mod overlay;
@@ -11,8 +12,9 @@ use std::io::Read;
 use anyhow::{Context, anyhow};
 use model::View;
 
+pub use args::MeasureArgs;
+
 use super::view;
-use crate::args::MeasureArgs;
 use crate::exit::{Failure, Outcome};
 
 /// More of a picture is not read to find its size.

@@ -6,8 +6,8 @@ use model::{Container, Kind, Method, ObjectMarks, View};
 use pipeline::overlay::{Drawn, draw};
 use pipeline::rims::Rim;
 
+use super::args::MeasureArgs;
 use super::size::Size;
-use crate::args::MeasureArgs;
 use crate::exit::Failure;
 
 /// Draws people's marks and their sizes, if an overlay is asked for.

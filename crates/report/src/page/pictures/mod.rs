@@ -123,7 +123,7 @@ impl GallerySink for Pictures {
         let GalleryPicture { session, image, view, size_px: [width, height], jpeg, marks } = picture;
         let view = code(view);
         let file = self.names.file(&session, &image, view);
-        let marks = marks.iter().map(MarkEntry::of).collect();
+        let marks = marks.iter().map(MarkEntry::from_mark).collect();
         self.held_bytes = self.held_bytes.saturating_add(jpeg.len());
         if self.held_bytes <= INLINE_BYTES {
             self.held.push(jpeg);

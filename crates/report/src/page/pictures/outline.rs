@@ -20,7 +20,7 @@ pub(super) struct MarkEntry {
 }
 
 impl MarkEntry {
-    pub(super) fn of(mark: &GalleryMark) -> Self {
+    pub(super) fn from_mark(mark: &GalleryMark) -> Self {
         let finite = |point: &&[f64; 2]| point.iter().all(|coordinate| coordinate.is_finite());
         let points: Vec<[f64; 2]> = mark.points_px.iter().filter(finite).copied().collect();
         Self {

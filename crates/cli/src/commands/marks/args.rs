@@ -1,4 +1,4 @@
-//! `marks`: marks from and to other annotation tools.
+//! The arguments of `marks`.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! `simulate`: what is made, and how large.
+//! The arguments of `simulate`.
 
 use std::path::{Path, PathBuf};
 
@@ -8,8 +8,8 @@ use clap::ValueEnum;
 #[derive(Debug, clap::Args)]
 pub struct SimulateArgs {
     /// What to make: published-bench, large, bench, worn, or a scene file NAME.toml (docs/simulate.md)
-    #[arg(value_name = "PRESET|SCENE.toml", value_parser = parse_made)]
-    pub made: Made,
+    #[arg(value_name = "PRESET|SCENE.toml", value_parser = parse_study_to_make)]
+    pub study: StudyToMake,
     /// Folder of the new study; must be empty or not exist
     #[arg(short, long)]
     pub out: PathBuf,
@@ -49,9 +49,9 @@ fn parse_size_px(text: &str) -> Result<[u32; 2], String> {
     size.ok_or_else(|| "expected width and height in pixels, such as 320x240".to_owned())
 }
 
-/// What `simulate` makes.
+/// A study that `simulate` can make.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Made {
+pub enum StudyToMake {
     /// A study of the program's own.
     Preset(Preset),
     /// What a scene file says.
@@ -59,11 +59,11 @@ pub enum Made {
 }
 
 /// `worn`, `kitchen.toml`.
-fn parse_made(text: &str) -> Result<Made, String> {
+fn parse_study_to_make(text: &str) -> Result<StudyToMake, String> {
     if Path::new(text).extension().is_some_and(|extension| extension == "toml") {
-        return Ok(Made::Scene(PathBuf::from(text)));
+        return Ok(StudyToMake::Scene(PathBuf::from(text)));
     }
-    Preset::from_str(text, false).map(Made::Preset).map_err(|_| {
+    Preset::from_str(text, false).map(StudyToMake::Preset).map_err(|_| {
         let names = Preset::value_variants()
             .iter()
             .filter_map(|preset| Some(preset.to_possible_value()?.get_name().to_owned()));

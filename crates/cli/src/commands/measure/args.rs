@@ -1,40 +1,11 @@
-//! `project` and `measure`: one picture, by hand, without a study.
+//! The arguments of `measure`.
 
 use std::path::PathBuf;
 
 use model::{Kind, Shape, Wall};
 use pipeline::rims::RimShape;
 
-/// Where the camera is, for `project` and `measure`.
-#[derive(Debug, clap::Args)]
-pub struct PoseArgs {
-    /// Camera file (docs/devices.md), or a built-in camera (aim2-raw, aim2-corrected)
-    #[arg(long, value_name = "CAM.toml")]
-    pub camera: PathBuf,
-    /// Depression of the optical axis below the horizontal, in degrees
-    #[arg(long, value_name = "DEG")]
-    pub pitch: f64,
-    /// Roll, positive clockwise as the wearer sees it, in degrees
-    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
-    pub roll: f64,
-    /// Distance to the table along the optical axis, in mm
-    #[arg(long, value_name = "MM")]
-    pub range: f64,
-}
-
-/// `project`.
-#[derive(Debug, clap::Args)]
-pub struct ProjectArgs {
-    /// Where the camera is
-    #[command(flatten)]
-    pub pose: PoseArgs,
-    /// Height of the plane above the table, in mm
-    #[arg(long, value_name = "MM", default_value_t = 0.0)]
-    pub plane_z: f64,
-    /// From the plane to pixels: reads world_x_mm,world_y_mm
-    #[arg(long)]
-    pub inverse: bool,
-}
+use crate::commands::view::PoseArgs;
 
 /// `measure`.
 #[derive(Debug, clap::Args)]

@@ -1,5 +1,7 @@
 //! `marks`: marks from and to other annotation tools.
 
+mod args;
+
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -7,8 +9,10 @@ use anyhow::anyhow;
 use pipeline::Study;
 use pipeline::exchange::{self, ExchangeError, ExportOptions, Exported, Format, ImportOptions, Imported, Refused};
 
-use super::{PROGRAM, outcome, place, print, tell};
-use crate::args::{MarksExportArgs, MarksFormat, MarksImportArgs, MarksWay};
+pub use args::MarksArgs;
+use args::{MarksExportArgs, MarksFormat, MarksImportArgs, MarksWay};
+
+use super::{PROGRAM, outcome, place, print, print_message};
 use crate::exit::{Failure, Outcome};
 
 /// Carries marks over, and tells what could not be.
@@ -35,8 +39,8 @@ fn import(args: &MarksImportArgs) -> Result<Outcome, Failure> {
         program: PROGRAM.to_owned(),
     };
     let imported = exchange::import(&study, &args.file, &options).map_err(failure)?;
-    tell(&told(&args.file, "note: ", &imported.notes));
-    tell(&told(&args.file, "left out: ", &imported.refused));
+    print_message(&reasons_text(&args.file, "note: ", &imported.notes));
+    print_message(&reasons_text(&args.file, "left out: ", &imported.refused));
     if imported.marks == 0 && !imported.refused.is_empty() {
         return Err(Failure::Failed(anyhow!("nothing of {} could be used", args.file.display())));
     }
@@ -70,7 +74,7 @@ fn export(args: &MarksExportArgs) -> Result<Outcome, Failure> {
     let (rater, out) = (args.rater.clone(), args.out.clone());
     let options = ExportOptions { rater, format, out, program: PROGRAM.to_owned() };
     let Exported { images, marks, refused } = exchange::export(&study, &options).map_err(failure)?;
-    tell(&told(&study.dir, "left out: ", &refused));
+    print_message(&reasons_text(&study.dir, "left out: ", &refused));
     if marks == 0 && !refused.is_empty() {
         return Err(Failure::Failed(anyhow!("none of the marks of '{}' could be used", args.rater)));
     }
@@ -92,7 +96,7 @@ fn failure(error: ExchangeError) -> Failure {
 }
 
 /// What was left out, each reason once, with every place that it holds for.
-fn told(file: &Path, head: &str, refused: &[Refused]) -> String {
+fn reasons_text(file: &Path, head: &str, refused: &[Refused]) -> String {
     let mut by_fact: Vec<(&str, Vec<&str>)> = Vec::new();
     let mut number_of = std::collections::HashMap::new();
     for Refused { place, fact } in refused {

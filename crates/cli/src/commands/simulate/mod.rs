@@ -1,5 +1,7 @@
 //! `simulate`: a study with known truth.
 
+mod args;
+
 use std::path::Path;
 
 use ::simulate::laid::{self, LaidOptions, LaidPreset, SceneCamera, SceneSpec};
@@ -9,16 +11,18 @@ use clap::ValueEnum as _;
 use ingest::{camera, config};
 use serde_json::json;
 
-use super::{PROGRAM, tell};
-use crate::args::{LargeArgs, Made, Preset, SimulateArgs};
+pub use args::SimulateArgs;
+use args::{LargeArgs, Preset, StudyToMake};
+
+use super::{PROGRAM, print_message};
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
 /// Makes the study.
 pub fn run(args: &SimulateArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let seed = args.seed.unwrap_or(1);
-    let (Simulated { summary, truth }, made_from) = match &args.made {
-        Made::Preset(preset) => {
+    let (Simulated { summary, truth }, made_from) = match &args.study {
+        StudyToMake::Preset(preset) => {
             let made = match preset {
                 Preset::PublishedBench => make_published_bench(args, seed, bars)?,
                 Preset::Large => make_large(args, seed, bars)?,
@@ -28,7 +32,7 @@ pub fn run(args: &SimulateArgs, bars: &Bars) -> Result<Outcome, Failure> {
             let name = preset.to_possible_value().map(|value| value.get_name().to_owned());
             (made, json!({"program": PROGRAM, "preset": name, "seed": seed}))
         }
-        Made::Scene(file) => {
+        StudyToMake::Scene(file) => {
             let (made, seed) = make_scene(file, args, bars)?;
             (made, json!({"program": PROGRAM, "scene": "scene.toml", "seed": seed}))
         }
@@ -36,7 +40,7 @@ pub fn run(args: &SimulateArgs, bars: &Bars) -> Result<Outcome, Failure> {
     if !truth.is_empty() {
         ::report::write_truth(&args.out.join("truth.parquet"), truth, &made_from.to_string())?;
     }
-    tell(&format!(
+    print_message(&format!(
         "wrote {}: {} sessions, {} images, {} files of marks\n",
         args.out.display(),
         summary.sessions,

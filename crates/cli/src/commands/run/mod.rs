@@ -1,5 +1,7 @@
 //! `run`: the main job.
 
+mod args;
+
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
@@ -7,9 +9,10 @@ use model::SessionStatus;
 use pipeline::{Annotated, Halted, Holder, MarksWritten, NotAnnotated, RunError, RunOptions, WriteMarksError};
 use report::{FileError, Results, SinkError};
 
-use super::summary::{Finished, tell_summary};
-use super::{COMMIT, PROGRAM, outcome, page, place, print, settings, stop_on_signals, tables_text, tell};
-use crate::args::RunArgs;
+pub use args::RunArgs;
+
+use super::summary::{Finished, print_summary};
+use super::{COMMIT, PROGRAM, outcome, page, place, print, print_message, settings, stop_on_signals, tables_text};
 use crate::exit::{Failure, Outcome};
 use crate::logging::LogFormat;
 use crate::progress::Bars;
@@ -55,16 +58,16 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
     let (page, shown) = report.map_or((None, true), |report| (Some(report.page), !report.lost));
     let files = [out.clone(), frames, ::report::run_file(out)];
     let files: Vec<PathBuf> = files.into_iter().chain(page).collect();
-    tell_summary(&Finished { ran: &ran, files: &files, work_dir: &options.work_dir }, format);
+    print_summary(&Finished { ran: &ran, files: &files, work_dir: &options.work_dir }, format);
     if let Some((folder, written)) = marks {
-        tell_marks(written, folder, format);
+        print_marks(written, folder, format);
     }
     if let Some(annotated) = &annotated {
-        tell_annotated(annotated, format);
+        print_annotated(annotated, format);
     }
     if let Some(dir) = &args.expect {
         let comparison = ::report::compare(dir, &results, args.tolerance).map_err(Failure::usage)?;
-        tell(&format!("{comparison}\n"));
+        print_message(&format!("{comparison}\n"));
         if !comparison.is_ok() {
             return Err(Failure::Failed(anyhow!("the tables differ from those in {}", dir.display())));
         }
@@ -91,23 +94,23 @@ fn options(args: &RunArgs) -> Result<RunOptions, Failure> {
 }
 
 /// How many files of marks there are now, and how many somebody has changed.
-fn tell_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
+fn print_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
     let MarksWritten { files, left } = written;
     let place = folder.join("auto");
     if format == LogFormat::Json {
         tracing::info!(files, left, "marks of rims that were found, in {}", place.display());
         return;
     }
-    tell(&format!("marks of rims that were found: {files} files for LabelMe in {}\n", place.display()));
+    print_message(&format!("marks of rims that were found: {files} files for LabelMe in {}\n", place.display()));
     if left > 0 {
-        tell(&format!(
+        print_message(&format!(
             "{left} more differ from what would be written, and were left as they are\n  -> remove those that are to be written anew\n"
         ));
     }
 }
 
 /// How many recordings are there for viewers, and which are not.
-fn tell_annotated(annotated: &Annotated, format: LogFormat) {
+fn print_annotated(annotated: &Annotated, format: LogFormat) {
     let Annotated { folder, made, kept, failed } = annotated;
     if format == LogFormat::Json {
         for NotAnnotated { session, fact } in failed {
@@ -116,9 +119,9 @@ fn tell_annotated(annotated: &Annotated, format: LogFormat) {
         tracing::info!(made, kept, failed = failed.len(), "annotated recordings, in {}", folder.display());
         return;
     }
-    tell(&format!("annotated recordings: {made} written, {kept} unchanged in {}\n", folder.display()));
+    print_message(&format!("annotated recordings: {made} written, {kept} unchanged in {}\n", folder.display()));
     for NotAnnotated { session, fact } in failed {
-        tell(&format!("session '{session}' has none: {fact}\n"));
+        print_message(&format!("session '{session}' has none: {fact}\n"));
     }
 }
 
