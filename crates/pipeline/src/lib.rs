@@ -1,10 +1,10 @@
 //! From a study on disk to rows of results.
 //!
 //! In one session the card is ingested to MCAP, [`signals`] turn samples into a pose for each image, images near the target
-//! pitch are selected, people's marks ([`labelme`]) become sizes, and the sizes of selected images are fused. [`run`] does
+//! pitch are selected, people's marks ([`labelme`]) become sizes, and the sizes of selected images are fused. [`run()`] does
 //! this for all sessions of a [`Study`] in parallel and hands the rows to a [`model::ResultSink`].
 //!
-//! [`check`] does the same without pictures and stores nothing: it tells before a run what that would lose. [`inspect`]
+//! [`check()`] does the same without pictures and stores nothing: it tells before a run what that would lose. [`inspect`]
 //! shows the content of recordings.
 //!
 //! Progress is reported to a [`Reporter`]; this crate draws nothing. A session that fails becomes a status with a code, a

@@ -25,9 +25,9 @@ pub struct Checked {
     pub study: Vec<Problem>,
 }
 
-/// Does for every session what [`run`](crate::run) does, with the same problems, but without pictures and without results.
-/// Cards are read whole, since damage shows nowhere else; what is written goes into a temporary folder. Only counts are kept
-/// of the rows.
+/// Does for every session what [`run()`](crate::run()) does, with the same problems, but without pictures and without
+/// results. Cards are read whole, since damage shows nowhere else; what is written goes into a temporary folder. Only counts
+/// are kept of the rows.
 ///
 /// # Errors
 /// [`SurveyError`] for what concerns the check as a whole.

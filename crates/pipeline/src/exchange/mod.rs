@@ -1,7 +1,7 @@
 //! Carries marks from and to files of other annotation tools: CVAT's XML, COCO's JSON (docs/marks.md).
 //!
-//! [`read`] gives the content of a file, and [`marks_of`] the marks that one annotation means. [`import`] writes them as
-//! LabelMe files, the only ones that are measured by. [`export`] goes the other way.
+//! [`read`] gives the content of a file, and [`marks_of`] the marks that one annotation means. [`import()`] writes them as
+//! LabelMe files, the only ones that sizes are measured from. [`export()`] goes the other way.
 //!
 //! LabelMe, CVAT and the tools that write COCO all put (0, 0) at the corner of the first pixel, so coordinates are carried
 //! over unchanged.
