@@ -9,9 +9,9 @@ use model::{Feature, Mark, ObjectMarks, Quantity};
 use nalgebra::Point2;
 use serde::Deserialize;
 
-use crate::rims::Found;
 pub(crate) use error::MARKS_UNREADABLE;
 pub use error::MarksError;
+use rims::Found;
 pub(crate) use write::{AutoRim, Shape as OutShape, text_of, text_of_shapes};
 
 mod error;

@@ -25,7 +25,6 @@ pub mod labelme;
 pub mod overlay;
 mod parallel;
 mod reporter;
-pub mod rims;
 mod run;
 mod session;
 pub mod signals;

@@ -4,7 +4,7 @@ use model::{Feature, Mark, ObjectMarks};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
-use crate::rims::Found;
+use rims::Found;
 
 /// The version of LabelMe whose files these are like.
 const LABELME_VERSION: &str = "5.4.1";
@@ -94,7 +94,7 @@ mod tests {
 
     use super::*;
     use crate::labelme::parse;
-    use crate::rims::{HeightSource, RimHeight};
+    use rims::{HeightSource, RimHeight};
 
     fn rim() -> AutoRim {
         let height = RimHeight { mm: 61.234_567_890_123_4, sigma_mm: 0.1 + 0.2, source: HeightSource::Foot };

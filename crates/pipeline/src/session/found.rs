@@ -6,7 +6,7 @@ use model::{
 };
 
 use super::marked::Marked;
-use crate::rims::{Found, HeightSource};
+use rims::{Found, HeightSource};
 
 /// The sizes by one method: of people's marks as they are, of a found rim with the height that the program measured.
 pub(super) fn estimates(

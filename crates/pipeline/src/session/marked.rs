@@ -5,8 +5,8 @@ use model::{InputSigma, Method, ObjectMarks, Problem, Severity, Stage, View};
 use super::frames::{Frame, Session, inputs_of};
 use super::session_marks::{MarkedObject, SessionMarks};
 use crate::calibration::corrected_view;
-use crate::rims::Found;
 use crate::study::Object;
+use rims::Found;
 
 /// One object as one rater marked it on one image.
 pub(super) struct Marked<'a> {

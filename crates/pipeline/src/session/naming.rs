@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use model::{ObjectMarks, Problem, Severity, Stage};
 
-use crate::rims::Found;
 use crate::study::{NAMES_FILE, Named, SessionDir, Study, number_of_found};
+use rims::Found;
 
 /// The marks on one image by object; with the found rim where the program made them.
 pub(super) type Marks = Vec<(ObjectMarks, Option<Found>)>;
@@ -88,7 +88,7 @@ mod tests {
     use model::{Kind, Shape};
 
     use super::*;
-    use crate::rims::{HeightSource, RimHeight};
+    use rims::{HeightSource, RimHeight};
 
     fn naming() -> Naming {
         let named = |line| Named { object: "dinner plate".to_owned(), line };

@@ -5,7 +5,7 @@ use model::{Doubt, Estimate, FrameReason, Level, MeasureError, Method, Pose, Qua
 
 use super::found::height_source;
 use super::marked::Marked;
-use crate::rims::HeightSource;
+use rims::HeightSource;
 
 /// The row of one size on one image.
 pub(super) fn frame_row(

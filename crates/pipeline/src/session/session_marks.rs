@@ -14,8 +14,8 @@ use super::naming::Naming;
 use super::problems::LINK_FACT;
 use crate::inputs::sha256_of_bytes;
 use crate::labelme::{self, AutoRim, MarksError};
-use crate::rims::Found;
 use crate::study::{AUTO, Object, SessionDir, Study, marks_in, stem_of};
+use rims::Found;
 
 /// The marks of a session by image (file on the card), then by rater.
 #[derive(Debug)]

@@ -6,8 +6,8 @@ use model::{Kind, Method, Note, Quantity, Selection, TableLayout};
 use serde::{Deserialize, Serialize};
 
 use super::{MarksSource, UncertaintySpec};
-use crate::rims::{LEAST_DIAMETER_MM, RimShape};
 use crate::signals::{GravityCalibrate, PoseSettings, RangeCone, ReadingSettings};
+use rims::{LEAST_DIAMETER_MM, RimShape};
 
 /// The version of study.toml that this program reads.
 pub(crate) const STUDY_SCHEMA_VERSION: u32 = 1;

@@ -5,7 +5,7 @@
 
 use model::Kind;
 
-use crate::rims::{HeightSource, RimHeight};
+use rims::{HeightSource, RimHeight};
 
 /// The evidence of one image, or of several, on what a container is.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -19,11 +19,11 @@ use super::prepared::Prepared;
 use super::recording::{Recording, bad_mcap};
 use crate::calibration::corrected_view;
 use crate::labelme::{self, AutoRim};
-use crate::rims::{self, Found, Rim, find_rims_of};
 use crate::stop::Stop;
 use crate::study::{AUTO, SessionDir, Study, marks_in, number_of_found, stem_of};
 use appearance::Appearance;
 use named::{Seen, name_containers};
+use rims::{self, Found, Rim, find_rims_of};
 use track::Sighting;
 
 /// The result of a search.

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::link::containers;
 use super::track::Sighting;
 use crate::labelme::AutoRim;
-use crate::rims::{Found, as_judged};
 use crate::study::FOUND;
+use rims::{Found, as_judged};
 
 /// A rim with the sighting by which it is linked to others.
 pub(super) struct Seen {
@@ -54,8 +54,8 @@ mod tests {
     use model::{Kind, Shape, UtcNs};
 
     use super::*;
-    use crate::rims::{HeightSource, RimHeight};
     use crate::session::auto::appearance::Appearance;
+    use rims::{HeightSource, RimHeight};
 
     const LEAST_MM: f64 = 90.0;
 
