@@ -2,7 +2,7 @@
 # One would expect: a picture has one size for LabelMe, whether it lies beside the marks or is embedded in them.
 # What happens: a picture that EXIF says to turn by 90 degrees is turned when it lies beside the marks, and not when it is
 #   embedded. A file of marks that states the stored size (imageWidth, imageHeight) is refused in the first case, one that
-#   states the turned size in the second; marks on the one picture lie elsewhere on the other.
+#   states the turned size in the second; marks that fit one do not fit the other.
 # Why it matters here: marks are pixels of the camera as it stores them. Files of marks for LabelMe need pictures that are not
 #   turned, or must state the size that LabelMe sees.
 # Source: https://github.com/wkentaro/labelme/pull/305 (turning), https://github.com/wkentaro/labelme/issues/1529 (its export)

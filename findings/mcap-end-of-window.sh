@@ -3,8 +3,8 @@
 # What happens: `endTime` of the JavaScript reader counts a message at the end, `end_time` of the Python reader does not.
 #   Windows that touch have a message at their border twice in the one, once in the other. Python now has other names, of
 #   which `ending_at` and `ending_before` say which is meant; JavaScript has not.
-# Why it matters here: images and packets are cut into sessions by time, and a message at the border is found by one
-#   viewer's window and not by the script beside it.
+# Why it matters here: an image or packet just at the end of a window is seen by a viewer in JavaScript, and not by the
+#   script in Python beside it. Counts of the two differ by one.
 # Source: https://github.com/foxglove/mcap/issues/1276, https://github.com/foxglove/mcap/pull/1805
 # Needs: python3 3.11, node 18.
 set -euo pipefail

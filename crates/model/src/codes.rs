@@ -1,11 +1,10 @@
 //! The macro for enums that are written as codes in files, tables and messages.
 
 /// Declares an enum whose variants have a stable code and a one-line meaning. The code is what serde, [`Display`]
-/// and [`FromStr`] use; [`ALL`] lists the variants in order, for documents made from them.
+/// and [`FromStr`] use; `ALL` lists the variants in order, for documents made from them.
 ///
 /// [`Display`]: std::fmt::Display
 /// [`FromStr`]: std::str::FromStr
-/// [`ALL`]: Self::ALL
 macro_rules! coded_enum {
     ($(#[$outer:meta])* $name:ident { $($variant:ident = $code:literal : $meaning:literal,)+ }) => {
         $(#[$outer])*

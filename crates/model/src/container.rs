@@ -31,7 +31,7 @@ coded_enum! {
 }
 
 coded_enum! {
-    /// The stance of a container's wall.
+    /// The shape of a container's wall.
     Wall {
         Vertical = "vertical": "upright: the rim lies above the foot",
         Sloped = "sloped": "the rim is wider or narrower than the foot",
@@ -58,12 +58,12 @@ pub struct Container {
     pub shape: Shape,
     /// Height of the rim above the table, where it is known (from a catalogue or a ruler) and need not be measured.
     pub rim_height_mm: Option<f64>,
-    /// The stance of the wall, where it is stated; a box's is vertical.
+    /// The shape of the wall, where it is stated; that of a box is vertical.
     pub wall: Option<Wall>,
 }
 
 impl Container {
-    /// The stance of the wall: that which is stated, or else vertical for a box; `None` where it is not known.
+    /// The shape of the wall: the stated one, or else vertical for a box; `None` where it is not known.
     #[must_use]
     pub fn known_wall(&self) -> Option<Wall> {
         self.wall.or((self.kind == Kind::Box).then_some(Wall::Vertical))

@@ -11,7 +11,7 @@ coded_enum! {
     Doubt {
         PaperApproximation = "paper_approximation": "the paper's equations leave out the roll and the rays off the axis, and differ from the exact ones by more than 0.3 of the uncertainty",
         WallSloped = "wall_sloped": "the method takes the wall as vertical, and it is not",
-        WallAssumedVertical = "wall_assumed_vertical": "the method takes the wall as vertical, and it is not known how the wall stands",
+        WallAssumedVertical = "wall_assumed_vertical": "the method takes the wall as vertical, and its shape is not known",
     }
 }
 

@@ -72,7 +72,7 @@ const STEPS: usize = 50;
 const MOST_TO_TEST: usize = 500;
 
 /// The robust mean of sizes, weighted by their inverse variances; `None` when there are no shares. A share that is off from
-/// the others by more than [`HUBER`] of its own uncertainties counts less.
+/// the others by more than `HUBER` of its own uncertainties counts less.
 ///
 /// Errors from sources that the shares have in common move them alike and do not average out: with weights w and derivatives
 /// g the fused size has the derivatives sum(w g), and its variance follows from those.
@@ -215,11 +215,11 @@ fn consistency(shares: &[Share]) -> Option<Consistency> {
     chi_squared.is_finite().then_some(Consistency { chi_squared, degrees, verdict })
 }
 
-/// A number with a standard normal distribution exceeds this in 1 of 100 cases.
+/// A number of a standard normal distribution exceeds this in 1 of 100 cases.
 const ONE_PER_CENT: f64 = 2.326_347_9;
 
-/// The number of SDs by which a chi-square lies above its mean, by Wilson and Hilferty (PNAS 1931): the cube root of chi-square
-/// over its degrees of freedom is nearly Gaussian. At 1 % the limits of chi-square are right to 2 % for one degree of freedom
+/// The number of a standard normal distribution that is exceeded as seldom as this chi-square, by Wilson and Hilferty (PNAS
+/// 1931): the cube root of chi-square over its degrees of freedom is nearly Gaussian. At 1 % the limits of chi-square are right to 2 % for one degree of freedom
 /// and to 0.3 % for three or more.
 fn normal_score(chi_squared: f64, degrees: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a count of sizes is far below 2^53")]

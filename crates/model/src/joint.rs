@@ -12,8 +12,8 @@ use crate::view::View;
 /// A wall as one picture shows it: on Z = 0 its foot is at the distance a from the point under the camera, and its rim at the
 /// distance b.
 ///
-/// With c the height of the camera, a rim that is H above the table and overhangs its foot by s is seen at b (c - H) = c (a
-/// + s). So b - a = H b / c + s, which is a straight line over pictures, with the slope H and the intercept s.
+/// With c the height of the camera, a rim that is H above the table and overhangs its foot by s is seen at
+/// b (c - H) = c (a + s). So b - a = H b / c + s, which is a straight line over pictures, with the slope H and the intercept s.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sight {
     view: View,

@@ -10,8 +10,9 @@ use crate::source::PerSource;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sensed {
     pub value: f64,
+    /// Derivatives by the sources.
     pub by_source: PerSource,
-    /// By x and y of the first marked point, then of the second, and so on.
+    /// Derivatives by x and y of the first marked point, then of the second, and so on.
     pub by_mark: DVector<f64>,
 }
 

@@ -30,9 +30,9 @@ pub struct InputSigma {
     pub principal_px: f64,
     /// Displacement by the lens at the corner of the picture.
     pub distortion_px: f64,
-    /// Pitch and tilt of one picture about those of its session, since gravity keeps a rest of the motion.
+    /// Pitch and tilt of one picture about those of its session, from the motion that remains in the estimate of gravity.
     pub turn_noise_rad: f64,
-    /// Range of one picture about that of its session, since the median keeps a rest of the noise.
+    /// Range of one picture about that of its session, from the noise that remains in the median of the readings.
     pub range_noise_mm: f64,
     /// Each coordinate of one marked point.
     pub mark_px: f64,
@@ -80,7 +80,7 @@ impl InputSigma {
         learned: None,
     };
 
-    /// The standard uncertainty of one source, in its own unit, whatever a calibration says.
+    /// The standard uncertainty of one source, in its own unit, without the covariance from a calibration.
     #[must_use]
     pub fn sigma_of(&self, source: Source) -> f64 {
         match source {

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use model::Method;
 use pipeline::Study;
 use pipeline::calibration::CalibrationFile;
-use pipeline::rims::RimShape;
 use pipeline::study::{MarksSource, StudySpec};
+use rims::RimShape;
 
 use crate::exit::Failure;
 

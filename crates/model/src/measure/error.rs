@@ -1,4 +1,4 @@
-//! The error of a measurement.
+//! The reasons why marks do not give a size.
 
 use crate::circle::CircleError;
 use crate::container::Shape;

@@ -21,7 +21,7 @@ use span::Span;
 /// A size that was measured on one picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// The size that it is.
+    /// The quantity that was measured.
     pub quantity: Quantity,
     /// The value: the mean over the lines or outlines that were marked for it.
     pub predicted_mm: f64,

@@ -157,7 +157,7 @@ schema! {
 }
 
 schema! {
-    /// The columns of `frames.parquet` that the flow of images needs: a year of images is read in a few bytes each.
+    /// The columns of `frames.parquet` that the flow of images needs, so that a year of images is read at a few bytes each.
     FlowRow, FLOW_COLUMNS {
         session: String = "name of the session",
         reason: FrameReason = "why the image was kept or dropped",

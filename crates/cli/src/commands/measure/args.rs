@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use model::{Kind, Shape, Wall};
-use pipeline::rims::RimShape;
+use rims::RimShape;
 
 use crate::commands::view::PoseArgs;
 

@@ -3,8 +3,8 @@
 use anyhow::{Context, anyhow};
 use ingest::Picture;
 use model::{Container, Kind, Method, Shape, View};
-use pipeline::rims::{HeightSource, Rim, find_rims_of};
 use pipeline::study::UncertaintySpec;
+use rims::{HeightSource, Rim, find_rims_of};
 
 use super::super::{outcome, print, print_message};
 use super::args::MeasureArgs;

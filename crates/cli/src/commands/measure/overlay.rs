@@ -4,7 +4,7 @@ use anyhow::Context;
 use ingest::Picture;
 use model::{Container, Kind, Method, ObjectMarks, View};
 use pipeline::overlay::{Drawn, draw};
-use pipeline::rims::Rim;
+use rims::Rim;
 
 use super::args::MeasureArgs;
 use super::size::Size;
