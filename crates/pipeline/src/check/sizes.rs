@@ -1,4 +1,4 @@
-//! What a study would measure, and what it would not.
+//! The sizes that a study would measure, and those that it would not.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use model::{
 
 use crate::study::Study;
 
-/// That there is a size of this sort.
+/// The sort of a size that would be measured.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Measured {
     object: String,
@@ -20,7 +20,7 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// None for a row without a size.
+    /// The sort of a row's size; none for a row without a size.
     pub fn from_row(row: &ResultRow) -> Option<Self> {
         row.predicted_mm.map(|_| Self {
             object: row.object.clone(),
@@ -47,7 +47,8 @@ impl Measured {
     }
 }
 
-/// Objects of which there would be no size, and tables that would stay empty: worth knowing, and no loss of data.
+/// The problems of objects that would get no size, and of tables that would stay empty. They are worth knowing, and no loss
+/// of data.
 pub(super) fn problems(study: &Study, measured: &BTreeSet<Measured>) -> Vec<Problem> {
     let measured_objects: BTreeSet<&str> = measured.iter().map(|size| size.object.as_str()).collect();
     let objects = study.objects.keys().filter(|object| !measured_objects.contains(object.as_str()));

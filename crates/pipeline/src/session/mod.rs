@@ -1,4 +1,7 @@
-//! One session from end to end: card -> MCAP -> signals -> marks -> sizes -> rows.
+//! One session from end to end: card -> MCAP -> signals -> select -> marks -> measure -> fuse -> rows.
+//!
+//! [`road`] calls the steps. Each has a module that names its inputs and outputs: `recording` (with [`crate::signals`]),
+//! `frames`, `session_marks` (with `auto`, which finds rims), `measurement`, `fuse`.
 
 mod auto;
 mod bench;

@@ -1,4 +1,4 @@
-//! Found containers under the names of the objects that they are, by names.csv.
+//! Gives found containers the names of the objects that they are, by names.csv.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,15 +7,15 @@ use model::{ObjectMarks, Problem, ProblemCode, Severity, Stage};
 use crate::study::{NAMES_FILE, Named, SessionDir, Study, number_of_found};
 use rims::Found;
 
-/// What is marked on one image, and what is known of it where the program found it.
+/// The marks on one image by object; with the found rim where the program made them.
 pub(super) type Marks = Vec<(ObjectMarks, Option<Found>)>;
 
-/// The names of one session, and which of them were of use.
+/// The names of one session, and which of them have been used.
 #[derive(Debug, Default)]
 pub(super) struct Naming {
     names: BTreeMap<String, Named>,
     used: BTreeSet<String>,
-    /// Whether there was any container that could be named.
+    /// Whether any container that names.csv could name was met.
     met: bool,
 }
 
@@ -24,8 +24,8 @@ impl Naming {
         Self { names: study.names.get(&dir.name).cloned().unwrap_or_default(), ..Self::default() }
     }
 
-    /// The marks of one image, each under the name of its object. Where two get the same name, what a person calls so comes
-    /// first, then the likelier rim; the other one becomes a problem at `place`.
+    /// The marks of one image, each under the name of its object. Where two get the same name, marks that a person gave that
+    /// name come first, then the likelier rim; the other one is left out, with a problem at `place`.
     pub fn rename(&mut self, marks: Marks, place: &str, problems: &mut Vec<Problem>) -> Marks {
         let mut by_object: BTreeMap<String, (String, ObjectMarks, Option<Found>)> = BTreeMap::new();
         for (marks, found) in marks {
@@ -47,14 +47,15 @@ impl Naming {
         by_object.into_values().map(|(_, marks, found)| (marks, found)).collect()
     }
 
-    /// Names that no container of the session has, where one was looked for.
+    /// A problem for each name that no container of the session has, where one was looked for.
     pub fn unused(&self, session: &str, searched: bool) -> Vec<Problem> {
         let is_unused = |(found, _): &(&String, &Named)| (searched || self.met) && !self.used.contains(*found);
         self.names.iter().filter(is_unused).map(|(found, named)| not_found(found, named, session)).collect()
     }
 }
 
-/// What a person calls so comes first, then what he marked himself.
+/// The rank among marks of one name: those that a person gave it come first, then those that a person made, then the
+/// likelier rim.
 fn surety((was, marks, found): &(String, ObjectMarks, Option<Found>)) -> (bool, f64) {
     (*was == marks.object, found.map_or(f64::INFINITY, |found| found.confidence))
 }

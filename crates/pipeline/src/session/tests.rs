@@ -11,7 +11,7 @@ use crate::signals::{GravityCalibrate, RangeCone};
 use crate::stop::Stop;
 use crate::study::{Study, StudySpec};
 
-/// Without losses.
+/// The output of a session that must not have losses.
 fn run(adjust: impl FnOnce(&mut StudySpec)) -> SessionOutput {
     let output = run_with(adjust);
     assert!(!output.status.has_losses(), "{:?}", output.status.problems);

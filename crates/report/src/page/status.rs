@@ -1,10 +1,10 @@
-//! How every session fared, and what went wrong, as tables.
+//! Tables of the sessions and of their problems.
 
 use model::{Problem, RunMetadata, SessionStatus};
 
 use crate::table::{Align, Cell, Column, Role, RowKind, Table, TableRow};
 
-/// Sessions, then problems.
+/// The table of sessions, and the table of problems.
 pub(super) fn tables(metadata: &RunMetadata) -> Vec<Table> {
     vec![sessions(metadata), problems(metadata)]
 }
@@ -41,7 +41,7 @@ fn sessions(metadata: &RunMetadata) -> Table {
     table("sessions", "Status of every session", statistic, columns, metadata.sessions.iter().map(row).collect())
 }
 
-/// With a sign that is told apart without colour.
+/// The state of a session in words, with a sign that can be told apart without colour.
 fn state(status: &SessionStatus) -> &'static str {
     match (status.failed, status.has_losses()) {
         (true, _) => "\u{2715} failed",

@@ -1,4 +1,4 @@
-//! What became of the images.
+//! Tests of the flow of images, as tables and as bars.
 
 use model::{
     FrameReason, FrameRow, Problem, ProblemCode, ResultSink as _, RunLog, RunMetadata, SessionStatus, Severity, Stage,
@@ -40,7 +40,7 @@ fn frames() -> Vec<FrameRow> {
     ]
 }
 
-/// Written to files and read back, as a run does.
+/// Results that are written to files and read back, as a run does.
 fn read(metadata: &RunMetadata, frames: Vec<FrameRow>) -> Results {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("results.parquet");
