@@ -25,8 +25,8 @@ pub fn exchange(input: &[u8]) -> usize {
         assert!(!annotation.place.is_empty());
         match marks_of(annotation, &names, picture_px, true) {
             Ok(converted) => {
-                assert!(!converted.made.is_empty() || !converted.notes.is_empty());
-                for made in &converted.made {
+                assert!(!converted.marks.is_empty() || !converted.notes.is_empty());
+                for made in &converted.marks {
                     let (object, what) = made.label.rsplit_once('/').expect("OBJECT/WHAT");
                     assert!(objects.iter().any(|known| known == object) && !what.is_empty(), "{}", made.label);
                     let within = |[x, y]: &[f64; 2]| (-1.0..=65.0).contains(x) && (-1.0..=49.0).contains(y);

@@ -1,4 +1,4 @@
-//! SIGINT and SIGTERM: the first asks to stop, the second ends the program at once.
+//! SIGINT and SIGTERM: the first one asks the program to stop, the second one ends it at once.
 
 use std::io;
 use std::sync::Arc;
@@ -8,22 +8,19 @@ use pipeline::Stop;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-/// Makes signals ask `stop` to stop, from now on.
+use crate::exit::code_of_signal;
+
+/// Makes signals ask `stop` to stop, from now on. Fails where the system refuses to call us.
 pub fn watch(stop: &Stop) -> io::Result<()> {
     let again = Arc::new(AtomicBool::new(false));
     for (signal, number) in [(SIGINT, 2), (SIGTERM, 15)] {
         // In this order: the first signal finds `again` unset, and sets it.
-        flag::register_conditional_shutdown(signal, exit_code(number), Arc::clone(&again))?;
+        flag::register_conditional_shutdown(signal, i32::from(code_of_signal(number)), Arc::clone(&again))?;
         flag::register(signal, Arc::clone(&again))?;
-        flag::register_usize(signal, stop.signal_slot(), usize::from(number))?;
+        flag::register_usize(signal, stop.signal_slot(), number)?;
     }
-    // A limit of the size of files is then told as any other failure to write, and does not end the program.
+    // A file that passes the limit on its size then fails like any other write, and does not end the program.
     #[cfg(unix)]
     flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)))?;
     Ok(())
-}
-
-/// Exit code of a program that a signal ended, as shells give it.
-fn exit_code(signal: u8) -> i32 {
-    128 + i32::from(signal)
 }

@@ -128,7 +128,7 @@ mod tests {
 
     use super::*;
 
-    fn of(path: &Path) -> Fingerprint {
+    fn fingerprint_of(path: &Path) -> Fingerprint {
         let mut fingerprint = Fingerprint::default();
         fingerprint.add_file("a", path);
         fingerprint
@@ -142,16 +142,16 @@ mod tests {
         let long_ago = UNIX_EPOCH + Duration::from_secs(1_000_000);
         let times = FileTimes::new().set_modified(long_ago);
         File::options().write(true).open(&path).unwrap().set_times(times).unwrap();
-        let before = of(&path);
-        assert_eq!(before.hex(), of(&path).hex());
+        let before = fingerprint_of(&path);
+        assert_eq!(before.hex(), fingerprint_of(&path).hex());
         std::thread::sleep(Duration::from_millis(20));
         std::fs::write(&path, b"after!").unwrap();
         File::options().write(true).open(&path).unwrap().set_times(times).unwrap();
-        assert_eq!((before.bytes(), of(&path).bytes()), (6, 6));
+        assert_eq!((before.bytes(), fingerprint_of(&path).bytes()), (6, 6));
         #[cfg(unix)]
-        assert_ne!(before.hex(), of(&path).hex());
+        assert_ne!(before.hex(), fingerprint_of(&path).hex());
         std::fs::remove_file(&path).unwrap();
-        assert_ne!(before.hex(), of(&path).hex());
+        assert_ne!(before.hex(), fingerprint_of(&path).hex());
     }
 
     #[cfg(unix)]
@@ -173,7 +173,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("a");
         std::fs::write(&path, b"x").unwrap();
-        let mut fingerprint = of(&path);
+        let mut fingerprint = fingerprint_of(&path);
         assert_eq!(fingerprint.settled(), None);
         fingerprint.taken_ns += 10_000_000_000;
         assert_eq!(fingerprint.settled(), Some(fingerprint.hex()));

@@ -9,13 +9,13 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::card::{Card, CardFile, Declared, Inputs, Patterns, Place, is_housekeeping, open_hashing, too_large};
+use crate::error::IngestError;
 use crate::fingerprint::Fingerprint;
-use crate::ingest::{IngestError, SessionSource};
-use crate::mcap_file::Keep;
 use crate::mcap_file::metadata::toml_text;
+use crate::mcap_file::{Keep, SURVEY};
 use crate::profile::Profile;
 use crate::progress::{IngestProgress, NoProgress};
-use crate::read::SessionReader;
+use crate::source::SessionSource;
 
 /// Version of what ingest writes. A change of layout or meaning gives another number, and all sessions are ingested anew.
 pub const INGEST_VERSION: u32 = 4;
@@ -62,13 +62,13 @@ pub(crate) fn listing_problems(source: &SessionSource, card: &Card) -> Result<Ve
     Ok(card.problems.iter().cloned().chain(unread).collect())
 }
 
-/// Looks at cards without reading them: made once for a device profile, used for every session.
-pub struct CardLook {
+/// Takes fingerprints of cards without reading them: it is made once for a device profile, and serves every session.
+pub struct CardFingerprinter {
     patterns: Patterns,
     profile: String,
 }
 
-impl CardLook {
+impl CardFingerprinter {
     /// For cards of that profile.
     ///
     /// # Errors
@@ -98,15 +98,6 @@ impl CardLook {
         Ok(fingerprint)
     }
 }
-
-/// Whether `out` is an MCAP file with that key. False for anything that is not such a file.
-#[must_use]
-pub fn ingest_is_current(out: &Path, key: &str) -> bool {
-    SessionReader::open(out).is_ok_and(|reader| reader.metadata().key == key)
-}
-
-/// The key of a survey begins with this, so that a survey never passes for the file of its session.
-pub(crate) const SURVEY: &str = "survey:";
 
 /// The key of a file with images, or of a survey.
 pub(crate) fn key_as(

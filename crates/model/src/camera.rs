@@ -1,12 +1,12 @@
-//! The camera: between pixels and rays.
+//! The camera, which maps pixels to rays and back.
 
 use nalgebra::{Matrix2, Matrix3x2, Point2, Vector2, Vector3};
 
 use crate::lens::{LensError, LensModel};
 
-/// A calibrated camera: Eq. (4) with a lens model in place of Eq. (3) alone.
+/// A calibrated camera: Eq. (4), with any lens model in place of Eq. (3).
 ///
-/// x = fx `x_d` + skew `y_d` + cx, y = fy `y_d` + cy, with (`x_d`, `y_d`) the normalised distorted point.
+/// A pixel is x = fx `x_d` + skew `y_d` + cx, y = fy `y_d` + cy, where (`x_d`, `y_d`) is the normalised distorted point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     size_px: [u32; 2],
@@ -16,10 +16,10 @@ pub struct Camera {
     lens: LensModel,
 }
 
-/// Why numbers do not make a camera.
+/// The reason why numbers do not make a camera.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CameraError {
-    /// Width or height is zero.
+    /// The width or the height is zero.
     #[error("picture size {0} x {1} px: expected both above 0")]
     EmptyPicture(u32, u32),
     /// A focal length is not a positive finite number.
@@ -31,8 +31,8 @@ pub enum CameraError {
 }
 
 impl Camera {
-    /// `size_px`: width, height. `focal_px`: fx, fy, that is f times the scales of Eq. (4). `principal_px`: cx, cy.
-    /// `skew_px`: the paper's second `K_c` (Eq. 4, px/mm) times f.
+    /// The camera with these parameters. `size_px`: width and height of its pictures. `focal_px`: fx and fy, that is f times
+    /// the scales of Eq. (4). `principal_px`: cx and cy. `skew_px`: the paper's second `K_c` (Eq. 4, in px/mm) times f.
     ///
     /// # Errors
     /// [`CameraError`] for an empty picture, a focal length that is not positive, or numbers that are not finite.
@@ -68,43 +68,43 @@ impl Camera {
         Ok(Self { size_px, focal_px, principal_px, skew_px, lens })
     }
 
-    /// The same camera for its pictures resampled to another size, each axis by itself.
+    /// This camera for pictures that were resampled to another size, each axis by itself.
     ///
     /// # Errors
-    /// [`CameraError::EmptyPicture`] where a side is zero.
+    /// [`CameraError::EmptyPicture`] when a side is zero.
     pub fn resampled(&self, size_px: [u32; 2]) -> Result<Self, CameraError> {
-        let [sx, sy] = shares(self.size_px, size_px);
+        let [sx, sy] = size_ratios(self.size_px, size_px);
         let [fx, fy] = self.focal_px;
         let principal_px = resampled_px(self.principal_px, self.size_px, size_px);
-        // The lens works in focal lengths, and does not know of pixels.
+        // The lens model works in focal lengths, so its coefficients stay the same.
         Self::new(size_px, [fx * sx, fy * sy], principal_px, self.skew_px * sx, self.lens)
     }
 
-    /// Width and height of its pictures.
+    /// Width and height of the camera's pictures.
     #[must_use]
     pub fn size_px(&self) -> [u32; 2] {
         self.size_px
     }
 
-    /// Focal lengths fx and fy.
+    /// The focal lengths fx and fy.
     #[must_use]
     pub fn focal_px(&self) -> [f64; 2] {
         self.focal_px
     }
 
-    /// Principal point cx and cy.
+    /// The principal point cx and cy.
     #[must_use]
     pub fn principal_px(&self) -> [f64; 2] {
         self.principal_px
     }
 
-    /// Skew of the pixel grid.
+    /// The skew of the pixel grid.
     #[must_use]
     pub fn skew_px(&self) -> f64 {
         self.skew_px
     }
 
-    /// Lens model.
+    /// The lens model with its coefficients.
     #[must_use]
     pub fn lens(&self) -> &LensModel {
         &self.lens
@@ -115,10 +115,12 @@ impl Camera {
     /// # Errors
     /// [`LensError`] when the lens shows nothing there.
     pub fn ray_through(&self, pixel: Point2<f64>) -> Result<Vector3<f64>, LensError> {
-        // The exact inverse of Eq. (4). The paper's Eq. (9) is misprinted: a '+' for a product, the skew transposed.
+        // This is the exact inverse of Eq. (4). The paper's Eq. (9) is misprinted: it has a '+' for a product, and the skew
+        // transposed.
         self.lens.ray_of_distorted(self.normalised(pixel))
     }
 
+    /// The normalised distorted point of a pixel.
     fn normalised(&self, pixel: Point2<f64>) -> Point2<f64> {
         let y = (pixel.y - self.principal_px[1]) / self.focal_px[1];
         let x = (pixel.x - self.principal_px[0] - self.skew_px * y) / self.focal_px[0];
@@ -128,7 +130,7 @@ impl Camera {
     /// [`Self::ray_through`] with its derivative by the pixel, in closed form.
     ///
     /// # Errors
-    /// [`LensError`] when the lens shows nothing there, or folds there.
+    /// [`LensError`] when the lens shows nothing there, or when its model folds there.
     pub fn ray_and_derivative(&self, pixel: Point2<f64>) -> Result<(Vector3<f64>, Matrix3x2<f64>), LensError> {
         let (ray, by_normalised) = self.lens.ray_and_derivative(self.normalised(pixel))?;
         let [fx, fy] = self.focal_px;
@@ -136,15 +138,16 @@ impl Camera {
         Ok((ray, by_normalised * by_pixel))
     }
 
-    /// How far the mark at `pixel` would have to move to be read alike by a camera whose focal lengths are larger by a
-    /// small share, per that share.
+    /// How far the mark at `pixel` must move to have the same effect as focal lengths that are larger by a small share, per
+    /// that share, in px.
     pub(crate) fn pixel_by_focal_share(&self, pixel: Point2<f64>) -> Vector2<f64> {
         let normalised = self.normalised(pixel);
         -Vector2::new(self.focal_px[0] * normalised.x, self.focal_px[1] * normalised.y)
     }
 
-    /// Likewise for a lens that shows the corners of the picture 1 px further out, and other points by the cube of their
-    /// distance from the principal point, as a radial distortion does.
+    /// How far the mark at `pixel` must move to have the same effect as a lens that shows the corners of the picture further
+    /// out, per px of that shift. Like a radial distortion, it shifts other points by the cube of their distance from the
+    /// principal point.
     pub(crate) fn pixel_by_corner_px(&self, pixel: Point2<f64>) -> Vector2<f64> {
         let from_axis = pixel.coords - Vector2::from(self.principal_px);
         let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[x, y]| {
@@ -155,7 +158,7 @@ impl Camera {
         -from_axis * (from_axis.norm_squared() / farthest.powi(3))
     }
 
-    /// The pixel that shows a point or direction given in the camera frame. It may lie outside the picture.
+    /// The pixel that shows a point or a direction given in the camera frame. It may lie outside the picture.
     ///
     /// # Errors
     /// [`LensError`] when the lens does not show that direction.
@@ -168,15 +171,17 @@ impl Camera {
         if pixel.iter().all(|c| c.is_finite()) { Ok(pixel) } else { Err(LensError::NotFinite) }
     }
 }
-/// Where a point of a picture of `from_px` is in its copy resampled to `to_px`, each axis by itself.
+
+/// The place, in a copy resampled to the size `to_px`, of a point of a picture of the size `from_px`; each axis by itself.
 ///
-/// (0, 0) is the centre of the first pixel: the corner of the picture stays its corner, and lies half a pixel before it.
+/// (0, 0) is the centre of the first pixel. The corner of the picture, half a pixel before it, stays the corner.
 #[must_use]
 pub fn resampled_px(point_px: [f64; 2], from_px: [u32; 2], to_px: [u32; 2]) -> [f64; 2] {
-    let shares = shares(from_px, to_px);
-    [0, 1].map(|axis| (point_px[axis] + 0.5) * shares[axis] - 0.5)
+    let ratios = size_ratios(from_px, to_px);
+    [0, 1].map(|axis| (point_px[axis] + 0.5) * ratios[axis] - 0.5)
 }
 
-fn shares(from_px: [u32; 2], to_px: [u32; 2]) -> [f64; 2] {
+/// The factors by which width and height change between two sizes of a picture.
+fn size_ratios(from_px: [u32; 2], to_px: [u32; 2]) -> [f64; 2] {
     [0, 1].map(|axis| f64::from(to_px[axis]) / f64::from(from_px[axis]))
 }

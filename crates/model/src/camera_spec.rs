@@ -8,33 +8,33 @@ use crate::lens::{Division, Fisheye, LensModel, PlumbBob, Radial};
 /// The version of the camera file that this program reads.
 const CAMERA_SCHEMA_VERSION: u32 = 1;
 
-/// A camera file. Either `focal_px`, or `focal_mm` with `scale_px_per_mm`; unknown keys are refused.
+/// The contents of a camera file. It gives either `focal_px`, or `focal_mm` with `scale_px_per_mm`; unknown keys are refused.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraSpec {
-    /// Version of this layout: 1.
+    /// Version of the file's layout: 1.
     pub schema_version: u32,
-    /// Name, for people.
+    /// Name of the camera, for people.
     pub name: String,
-    /// Picture width.
+    /// Width of the picture.
     pub width_px: u32,
-    /// Picture height.
+    /// Height of the picture.
     pub height_px: u32,
-    /// Focal lengths fx, fy.
+    /// Focal lengths fx and fy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub focal_px: Option<[f64; 2]>,
     /// Focal length f (Table I of the paper: 2.4 mm).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub focal_mm: Option<f64>,
-    /// Scales of Eq. (4).
+    /// Pixels per millimetre of the sensor in x and in y: the scales of Eq. (4).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale_px_per_mm: Option<[f64; 2]>,
-    /// Principal point cx, cy.
+    /// Principal point cx and cy.
     pub principal_px: [f64; 2],
-    /// Skew of the pixel grid.
+    /// Skew of the pixel grid; zero where it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub skew_px: Option<f64>,
-    /// Lens.
+    /// The lens model with its coefficients.
     pub lens: LensSpec,
 }
 
@@ -49,61 +49,61 @@ pub enum LensSpec {
         /// The paper's `K_c`, for radii in mm on the sensor; needs `focal_mm`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         k_per_mm2: Option<f64>,
-        /// The same for radii in focal lengths.
+        /// The same coefficient for radii in focal lengths.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         k1: Option<f64>,
     },
-    /// Division model.
+    /// The division model.
     Division {
-        /// Coefficient for radii in focal lengths.
+        /// The coefficient for radii in focal lengths.
         lambda: f64,
     },
-    /// OpenCV's `distCoeffs`.
+    /// Brown-Conrady, with the coefficients of OpenCV's `distCoeffs`.
     PlumbBob {
-        /// Radial, r^2.
+        /// Radial coefficient of r^2.
         k1: f64,
-        /// Radial, r^4.
+        /// Radial coefficient of r^4.
         #[serde(default)]
         k2: f64,
-        /// Tangential.
+        /// Tangential coefficient, with 2 x y in x.
         #[serde(default)]
         p1: f64,
-        /// Tangential.
+        /// Tangential coefficient, with 2 x y in y.
         #[serde(default)]
         p2: f64,
-        /// Radial, r^6.
+        /// Radial coefficient of r^6.
         #[serde(default)]
         k3: f64,
     },
-    /// OpenCV's `cv::fisheye`.
+    /// Kannala-Brandt, as in OpenCV's `cv::fisheye`; t is the angle of a ray from the optical axis, in radians.
     Fisheye {
-        /// t^3.
+        /// Coefficient of t^3.
         k1: f64,
-        /// t^5.
+        /// Coefficient of t^5.
         #[serde(default)]
         k2: f64,
-        /// t^7.
+        /// Coefficient of t^7.
         #[serde(default)]
         k3: f64,
-        /// t^9.
+        /// Coefficient of t^9.
         #[serde(default)]
         k4: f64,
     },
 }
 
-/// Why a camera file does not describe a camera.
+/// The reason why a camera file does not describe a camera.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CameraSpecError {
-    /// A version of another program.
+    /// The file has a version that this program does not read.
     #[error("schema_version = {0}: this program reads version {CAMERA_SCHEMA_VERSION}")]
     Version(u32),
-    /// None or both of the ways to give the focal length.
+    /// The focal length is given in neither of the two ways, in both, or only in part.
     #[error("expected either focal_px = [fx, fy], or focal_mm with scale_px_per_mm = [sx, sy]; got {0}")]
     FocalLength(&'static str),
-    /// None or both of the ways to give the radial coefficient.
+    /// The radial coefficient is given in neither of the two ways, or in both.
     #[error("lens model 'radial': expected either k_per_mm2 or k1; got {0}")]
     RadialCoefficient(&'static str),
-    /// `k_per_mm2` without a focal length in mm.
+    /// `k_per_mm2` is given without a focal length in mm.
     #[error("lens model 'radial': k_per_mm2 needs focal_mm with scale_px_per_mm; with focal_px give the normalised k1")]
     NoMillimetres,
     /// The numbers do not make a camera.
@@ -112,7 +112,7 @@ pub enum CameraSpecError {
 }
 
 impl CameraSpec {
-    /// What describes this camera, with lengths in pixels.
+    /// The camera file that describes `camera`, with lengths in pixels.
     #[must_use]
     pub fn from_camera(name: &str, camera: &Camera) -> Self {
         let lens = match *camera.lens() {
@@ -137,10 +137,10 @@ impl CameraSpec {
         }
     }
 
-    /// The camera that the file describes.
+    /// The camera that this file describes.
     ///
     /// # Errors
-    /// [`CameraSpecError`] where the file is of another version, contradicts itself or leaves something open.
+    /// [`CameraSpecError`] when the file has another version, contradicts itself or leaves something open.
     pub fn camera(&self) -> Result<Camera, CameraSpecError> {
         if self.schema_version != CAMERA_SCHEMA_VERSION {
             return Err(CameraSpecError::Version(self.schema_version));

@@ -1,4 +1,4 @@
-//! Circles through marked points.
+//! Circles fitted to marked points.
 
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::storage::Owned;
@@ -7,26 +7,26 @@ use nalgebra::{DVector, Dyn, Matrix3, Matrix3x2, OMatrix, Point2, RowVector2, U3
 /// A circle on a plane, in mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Circle {
-    /// Centre.
+    /// The centre.
     pub center_mm: Point2<f64>,
-    /// Radius.
+    /// The radius.
     pub radius_mm: f64,
 }
 
-/// A circle with what each point does to it.
+/// A fitted circle with its derivatives by the points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CircleFit {
     /// The circle.
     pub circle: Circle,
-    /// Derivative of centre x, centre y and radius by x and y of each point, for points that lie near the circle: the
-    /// implicit function theorem on the normal equations, without terms in the residuals.
+    /// Derivatives of centre x, centre y and radius (rows) by x and y of each point (columns). They follow from the implicit
+    /// function theorem on the normal equations, without terms in the residuals, and so hold for points near the circle.
     pub by_point: Vec<Matrix3x2<f64>>,
 }
 
-/// Why points do not give a circle.
+/// The reason why points do not give a circle.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CircleError {
-    /// A circle needs three points.
+    /// There are fewer than the three points that a circle needs.
     #[error("{0} points do not fix a circle; mark at least 3, better 8 or more, spread around the rim")]
     TooFewPoints(usize),
     /// The points lie on a line or on one spot.
@@ -34,14 +34,15 @@ pub enum CircleError {
     Degenerate,
 }
 
-/// Least-squares circle through points on a plane.
+/// The least-squares circle through points on a plane.
 ///
-/// `scatter_mm(point, direction)`: standard deviation of a point along a unit direction, to any common factor; on a plane
-/// seen under a slant, a pixel's worth of marking error is larger far away and along the line of sight. An algebraic fit
-/// (Kasa 1976) starts a geometric one: radial distances in units of their scatter, by Levenberg-Marquardt.
+/// `scatter_mm(point, direction)` is the standard deviation of a point along a unit direction, up to a common factor: on a
+/// plane that is seen at a slant, an error of one pixel is larger far away and along the line of sight. An algebraic fit (Kasa
+/// 1976) is the start of a geometric one, which minimises the radial distances in units of their scatter by
+/// Levenberg-Marquardt.
 ///
 /// # Errors
-/// [`CircleError`] for fewer than three points, or points on a line.
+/// [`CircleError`] for fewer than three points, or for points on a line.
 pub fn fit_circle(
     points_mm: &[Point2<f64>],
     scatter_mm: impl Fn(usize, nalgebra::Vector2<f64>) -> f64,
@@ -67,7 +68,7 @@ pub fn fit_circle(
     }
 }
 
-/// Kasa's fit: x^2 + y^2 = 2 a x + 2 b y + c in the least-squares sense, about the centroid.
+/// The circle of Kasa's fit, which solves x^2 + y^2 = 2 a x + 2 b y + c in the least-squares sense, about the centroid.
 fn algebraic_fit(points_mm: &[Point2<f64>]) -> Result<Circle, CircleError> {
     #[expect(clippy::cast_precision_loss, reason = "a count of marks is far below 2^53")]
     let n = points_mm.len() as f64;
@@ -83,7 +84,7 @@ fn algebraic_fit(points_mm: &[Point2<f64>]) -> Result<Circle, CircleError> {
         normal += row * row.transpose();
         right += row * q.norm_squared();
     }
-    // Points on a line leave the normal matrix without full rank.
+    // For points on a line the normal matrix does not have full rank.
     let eigenvalues = normal.symmetric_eigenvalues();
     if eigenvalues.min() <= 1e-10 * eigenvalues.max() {
         return Err(CircleError::Degenerate);
@@ -93,6 +94,7 @@ fn algebraic_fit(points_mm: &[Point2<f64>]) -> Result<Circle, CircleError> {
     Ok(Circle { center_mm: Point2::from(centroid + solution.xy() * scale), radius_mm: radius * scale })
 }
 
+/// The circle that minimises the weighted radial distances, and its derivatives by the points; `None` where there is none.
 fn geometric_fit(
     points_mm: &[Point2<f64>],
     weights: DVector<f64>,
@@ -101,12 +103,13 @@ fn geometric_fit(
     let parameters = Vector3::new(start.center_mm.x, start.center_mm.y, start.radius_mm);
     let problem = RadialDistances { points_mm, weights, parameters };
     let (solved, report) = LevenbergMarquardt::new().minimize(problem);
-    // A fit that cannot be improved within rounding is a fit; one that ran out of steps or numbers is none.
+    // A fit that cannot be improved within rounding counts; one that ran out of steps or of finite numbers does not.
     let settled = report.termination.was_successful()
         || matches!(report.termination, TerminationReason::NoImprovementPossible(_));
     let jacobian = solved.jacobian().filter(|_| settled)?;
     let inverse_normal = jacobian.tr_mul(&jacobian).try_inverse()?;
-    // Residuals change by w n with a point, n pointing from the centre; row i of the Jacobian is -w (n, 1).
+    // With n the unit vector from the centre to point i and w its weight, the residual of that point changes by w n with the
+    // point, and row i of the Jacobian is -w (n, 1).
     let by_point = (0..points_mm.len()).map(|i| {
         let row = jacobian.row(i);
         inverse_normal * row.transpose() * RowVector2::new(row[0], row[1])
@@ -115,10 +118,11 @@ fn geometric_fit(
     Some((Circle { center_mm: Point2::new(p.x, p.y), radius_mm: p.z }, by_point.collect()))
 }
 
+/// The least-squares problem whose residuals are the weighted distances of the points from the circle.
 struct RadialDistances<'a> {
     points_mm: &'a [Point2<f64>],
     weights: DVector<f64>,
-    /// Centre x, centre y, radius.
+    /// Centre x, centre y and radius, in mm.
     parameters: Vector3<f64>,
 }
 

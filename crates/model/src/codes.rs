@@ -1,11 +1,10 @@
-//! One macro for enums that are written as codes in files, tables and messages.
+//! The macro for enums that are written as codes in files, tables and messages.
 
 /// Declares an enum whose variants have a stable code and a one-line meaning. The code is what serde, [`Display`]
-/// and [`FromStr`] use; [`ALL`] lists the variants in order, for documents made from them.
+/// and [`FromStr`] use; `ALL` lists the variants in order, for documents made from them.
 ///
 /// [`Display`]: std::fmt::Display
 /// [`FromStr`]: std::str::FromStr
-/// [`ALL`]: Self::ALL
 macro_rules! coded_enum {
     ($(#[$outer:meta])* $name:ident { $($variant:ident = $code:literal : $meaning:literal,)+ }) => {
         $(#[$outer])*
@@ -22,7 +21,7 @@ macro_rules! coded_enum {
                 match self { $(Self::$variant => $code,)+ }
             }
 
-            /// What the code means, in one line.
+            /// The meaning of the code, in one line.
             #[must_use]
             pub const fn meaning(self) -> &'static str {
                 match self { $(Self::$variant => $meaning,)+ }
@@ -63,11 +62,11 @@ macro_rules! coded_enum {
 
 pub(crate) use coded_enum;
 
-/// A code that is not one of its enum's.
+/// The error for a text that is none of the codes of an enum.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("'{got}' is not one of: {expected}")]
 pub struct UnknownCode {
-    /// What was read.
+    /// The text that was read.
     pub got: String,
     /// The known codes, joined by commas.
     pub expected: String,

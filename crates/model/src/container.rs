@@ -1,4 +1,4 @@
-//! Containers: their kinds and outlines, which of their sizes are measured, and by which methods.
+//! Containers: their kinds and shapes, their sizes, and the methods that measure these.
 
 use crate::codes::coded_enum;
 
@@ -31,7 +31,7 @@ coded_enum! {
 }
 
 coded_enum! {
-    /// How the wall of a container stands.
+    /// The shape of a container's wall.
     Wall {
         Vertical = "vertical": "upright: the rim lies above the foot",
         Sloped = "sloped": "the rim is wider or narrower than the foot",
@@ -39,37 +39,37 @@ coded_enum! {
 }
 
 coded_enum! {
-    /// How marks become sizes.
+    /// A method by which marks become sizes.
     Method {
         Paper = "paper": "the paper's equations 10-15: roll taken as zero, wall height H = tan(pitch) H'",
         Ray = "ray": "measured roll, and the wall height from the rim point's own ray: exact for a vertical wall",
-        Coaxial = "coaxial": "round bowls with rim and base outlined: two circles about one vertical axis, whatever the wall",
-        Joint = "joint": "two or more images of one bowl at different pitches: height and wall slope together, fused rows only",
-        Best = "best": "of the others the one with the smallest uncertainty whose assumptions hold",
+        Coaxial = "coaxial": "for round bowls with rim and base outlined: two circles about one vertical axis, whatever the shape of the wall",
+        Joint = "joint": "two or more images of one bowl at different pitches give height and wall slope together; for fused rows only",
+        Best = "best": "the one of the other methods with the smallest uncertainty among those whose assumptions hold",
     }
 }
 
-/// What is known of a container before it is measured.
+/// The facts about a container that are known before it is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Container {
-    /// Plate, bowl or box.
+    /// The kind: plate, bowl or box.
     pub kind: Kind,
-    /// Its outline.
+    /// The outline as seen from above.
     pub shape: Shape,
-    /// Height of the rim above the table where it is known (a catalogue, a ruler) and need not be measured.
+    /// Height of the rim above the table, where it is known (from a catalogue or a ruler) and need not be measured.
     pub rim_height_mm: Option<f64>,
-    /// How its wall stands, where it is known; a box's is vertical.
+    /// The shape of the wall, where it is stated; that of a box is vertical.
     pub wall: Option<Wall>,
 }
 
 impl Container {
-    /// How its wall stands; none where nobody knows.
+    /// The shape of the wall: the stated one, or else vertical for a box; `None` where it is not known.
     #[must_use]
     pub fn known_wall(&self) -> Option<Wall> {
         self.wall.or((self.kind == Kind::Box).then_some(Wall::Vertical))
     }
 
-    /// Whether its mouth is measured on a plane whose height comes from the same picture.
+    /// Whether the mouth is measured on a plane whose height comes from marks on the same picture.
     #[must_use]
     pub fn rim_plane_is_measured(&self) -> bool {
         self.rim_height_mm.is_none() && self.kind != Kind::Plate

@@ -1,4 +1,4 @@
-//! The flow of images: how many a study found, and at which step the others were left out.
+//! The flow of images: how many images a study has, and at which step some of them were left out.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -8,20 +8,20 @@ use crate::frame_log::FrameReason;
 use crate::results::{FlowRow, FrameRow};
 
 coded_enum! {
-    /// A step of the flow. Its images are a part of those of the step before.
+    /// A step of the flow. Its images are some of those of the step before.
     FlowStep {
         Found = "found": "every image of the study",
         Readable = "readable": "a whole picture of the camera's size, with a time",
-        WithPose = "with_pose": "acceleration and range at that time, and an axis that meets the table",
-        Still = "still": "the head was still",
-        Selected = "selected": "the pitch is within the target window: used for fused sizes",
+        WithPose = "with_pose": "readable, with acceleration and range at that time, and an axis that meets the table",
+        Still = "still": "with a pose, and the head was still",
+        Selected = "selected": "still, and the pitch is within the target window: used for fused sizes",
         Marked = "marked": "selected, and marked by at least one rater",
         Measured = "measured": "selected and marked, and at least one size could be measured",
     }
 }
 
 impl FrameReason {
-    /// The last step of the flow that an image with this reason reaches, by its reason alone.
+    /// The last step of the flow that an image with this reason reaches, as far as its reason decides.
     #[must_use]
     pub fn reaches(self) -> FlowStep {
         match self {
@@ -41,14 +41,14 @@ impl FrameReason {
         }
     }
 
-    /// The step of the flow that it ends: the first that such an image does not reach. None for selected images.
+    /// The first step of the flow that an image with this reason does not reach; `None` for selected images.
     #[must_use]
     pub fn ends(self) -> Option<FlowStep> {
         let next = |step| FlowStep::ALL.iter().copied().find(|later| *later > step);
         if self == Self::Selected { None } else { next(self.reaches()) }
     }
 
-    /// What becomes of marks on such an image.
+    /// Whether marks on an image with this reason are measured and fused, in words.
     const fn marks(self) -> &'static str {
         match self {
             Self::Selected => "measured and fused",
@@ -58,14 +58,14 @@ impl FrameReason {
     }
 }
 
-/// Images with something in common.
+/// Counts of images that have something in common.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ImageCounts {
-    /// All of them.
+    /// All such images.
     pub images: usize,
-    /// Those with marks of at least one rater.
+    /// The images with marks of at least one rater.
     pub marked: usize,
-    /// Those with marks and at least one measured size.
+    /// The images with marks and at least one measured size.
     pub measured: usize,
 }
 
@@ -77,16 +77,16 @@ impl ImageCounts {
     }
 }
 
-/// What the flow needs to know of an image.
+/// The facts about one image that the flow counts.
 #[derive(Debug, Clone, Copy)]
 pub struct FlowImage<'a> {
-    /// Its session.
+    /// Name of the session.
     pub session: &'a str,
-    /// What became of it.
+    /// The reason that the ledger gives for the image.
     pub reason: FrameReason,
-    /// Raters with marks on it.
+    /// Number of raters with marks on the image.
     pub raters: u32,
-    /// Sizes measured on it.
+    /// Number of sizes measured on the image.
     pub sizes: u32,
 }
 
@@ -102,7 +102,7 @@ impl<'a> From<&'a FlowRow> for FlowImage<'a> {
     }
 }
 
-/// How many images reach each step, and why the others do not. The order of the images does not matter.
+/// The flow of images: how many reach each step, and why the others do not. The order of the images does not matter.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Flow {
     by_reason: BTreeMap<FrameReason, ImageCounts>,
@@ -120,20 +120,20 @@ impl Flow {
         });
     }
 
-    /// Counts the images of `other`, too.
+    /// Adds the counts of `other`.
     pub fn merge(&mut self, other: &Self) {
         for (reason, counts) in &other.by_reason {
             self.by_reason.entry(*reason).or_default().add(*counts);
         }
     }
 
-    /// The images with this reason.
+    /// The counts of the images with this reason.
     #[must_use]
     pub fn with_reason(&self, reason: FrameReason) -> ImageCounts {
         self.by_reason.get(&reason).copied().unwrap_or_default()
     }
 
-    /// Number of images that reach a step.
+    /// The number of images that reach a step.
     #[must_use]
     pub fn images_at(&self, step: FlowStep) -> usize {
         let selected = self.with_reason(FrameReason::Selected);
@@ -144,20 +144,21 @@ impl Flow {
         }
     }
 
-    /// The images that were not selected: those with a pose are measured where they are marked, but not fused.
+    /// The counts of the images that were not selected. Those with a pose are measured where they are marked, but not fused.
     #[must_use]
     pub fn not_selected(&self) -> ImageCounts {
         self.sum(|reason| reason != FrameReason::Selected)
     }
 
-    /// The share of the found images that was selected, in per cent; none where no image was found.
+    /// The share of all images that was selected, in per cent; `None` when there are no images.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a count of images is far below 2^53")]
     pub fn selected_pct(&self) -> Option<f64> {
-        let found = self.images_at(FlowStep::Found);
-        (found > 0).then(|| 100.0 * self.images_at(FlowStep::Selected) as f64 / found as f64)
+        let all = self.images_at(FlowStep::Found);
+        (all > 0).then(|| 100.0 * self.images_at(FlowStep::Selected) as f64 / all as f64)
     }
 
+    /// The sum of the counts over the reasons for which `counts` holds.
     fn sum(&self, counts: impl Fn(FrameReason) -> bool) -> ImageCounts {
         let mut sum = ImageCounts::default();
         for (_, of_reason) in self.by_reason.iter().filter(|(reason, _)| counts(**reason)) {
@@ -174,7 +175,7 @@ pub struct StudyFlow {
 }
 
 impl StudyFlow {
-    /// Counts one image of its session.
+    /// Counts one image for its session.
     pub fn add<'a>(&mut self, image: impl Into<FlowImage<'a>>) {
         let image = image.into();
         if let Some(flow) = self.sessions.get_mut(image.session) {
@@ -183,19 +184,19 @@ impl StudyFlow {
         self.sessions.entry(image.session.to_owned()).or_default().add(image);
     }
 
-    /// Counts the images of `other`, too.
+    /// Adds the counts of `other`, session by session.
     pub fn merge(&mut self, other: Self) {
         for (session, flow) in other.sessions {
             self.sessions.entry(session).or_default().merge(&flow);
         }
     }
 
-    /// The sessions with images, by name.
+    /// The names of the sessions with images, in their order, each with its flow.
     pub fn sessions(&self) -> impl Iterator<Item = (&str, &Flow)> {
         self.sessions.iter().map(|(name, flow)| (name.as_str(), flow))
     }
 
-    /// The study as a whole.
+    /// The flow of the study as a whole.
     #[must_use]
     pub fn total(&self) -> Flow {
         let mut total = Flow::default();
@@ -206,7 +207,7 @@ impl StudyFlow {
     }
 }
 
-/// Markdown of the reasons: where each ends the flow, and what becomes of marks. Then that of the steps.
+/// The Markdown of two tables: the reasons, with the step that each ends and the fate of marks, and then the steps.
 pub(crate) fn flow_markdown() -> String {
     let mut text =
         "| reason | meaning | first step not reached | marks on such an image |\n|---|---|---|---|\n".to_owned();

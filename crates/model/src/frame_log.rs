@@ -1,4 +1,4 @@
-//! Why an image was kept or dropped.
+//! The ledger's reasons why an image was kept or dropped, and the flags of its signals.
 
 use crate::codes::coded_enum;
 
@@ -24,11 +24,11 @@ coded_enum! {
 }
 
 coded_enum! {
-    /// What to know about an image's signals. A flag drops nothing: it goes with the image and with the sizes measured on it.
+    /// A warning about an image's signals. A flag drops nothing: it goes with the image and with the sizes measured on it.
     FrameFlag {
         GravityEdge = "gravity_edge": "gravity comes from acceleration on one side of the image's time only: the recording, or a gap in it, begins or ends there",
-        RangeHeld = "range_held": "the range sensor gave one single value for far longer than its noise allows: it may have been stuck",
-        RangeStep = "range_step": "the range window holds two distances (a hand, a fork, the edge of a plate): the one that most readings say is used, if it is clear",
+        RangeHeld = "range_held": "the range sensor gave a single value for far longer than its noise allows: it may have been stuck",
+        RangeStep = "range_step": "the range window holds two distances (a hand, a fork, the edge of a plate): the one that most readings give is used, if the majority is clear",
         RangeConeSkipped = "range_cone_skipped": "the pitch is too shallow for the range sensor's cone to meet the table: the range was not corrected for it",
     }
 }

@@ -1,4 +1,4 @@
-//! Several sizes of one thing into one, with what they have in common kept.
+//! The fusion of several sizes of one thing into one, which keeps the errors that they have in common.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::codes::coded_enum;
 use crate::source::PerSource;
-use crate::stats::{ErrorStats, median};
+use crate::stats::{ErrorStats, ROBUST_SD, median};
 use crate::uncertainty::{InputSigma, Sensitivity, SizeSigma};
 
 /// One size that goes into a fused one.
@@ -14,13 +14,13 @@ use crate::uncertainty::{InputSigma, Sensitivity, SizeSigma};
 pub struct Share {
     /// The size.
     pub value_mm: f64,
-    /// What it changes by.
+    /// The derivatives of the size.
     pub sensitivity: Sensitivity,
-    /// Uncertainties of its picture; what [`InputSigma::common`] gives is taken from the first share.
+    /// The uncertainties of its picture's inputs. The part of [`InputSigma::common`] is taken from the first share.
     pub inputs: InputSigma,
-    /// Number of its picture: sizes of one picture share that picture's noise.
+    /// The number of its picture: sizes of one picture share that picture's noise.
     pub picture: usize,
-    /// At least 1: factor on its variance in the weights, for a picture of which there are doubts.
+    /// The factor by which a doubtful picture raises the variance behind the weight; at least 1.
     pub penalty: f64,
 }
 
@@ -32,14 +32,14 @@ coded_enum! {
     }
 }
 
-/// Chi-square of sizes about their generalised mean, all correlations counted.
+/// The test whether sizes agree: chi-square about their generalised mean, with all correlations counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Consistency {
-    /// Chi-square.
+    /// The value of chi-square.
     pub chi_squared: f64,
-    /// Degrees of freedom.
+    /// The degrees of freedom: one less than the number of sizes.
     pub degrees: usize,
-    /// What it says.
+    /// The result of the test, at the 1 % level.
     pub verdict: Verdict,
 }
 
@@ -48,15 +48,15 @@ pub struct Consistency {
 pub struct Fused {
     /// The size.
     pub value_mm: f64,
-    /// Its uncertainty.
+    /// Its standard uncertainty.
     pub sigma: SizeSigma,
-    /// Sample SD of what went in; none of a single one.
+    /// Sample SD of the sizes that were fused; `None` for a single one.
     pub spread_mm: Option<f64>,
-    /// Weights, adding up to 1.
+    /// The weights of the shares, which add up to 1.
     pub weights: Vec<f64>,
-    /// Numbers of the shares that lie too far off and count less.
+    /// The numbers of the shares that lie too far off and count less.
     pub outliers: Vec<usize>,
-    /// Whether they agree; none of a single one.
+    /// Whether the sizes agree; `None` for a single size, and for too many to test.
     pub consistency: Option<Consistency>,
 }
 
@@ -64,20 +64,18 @@ pub struct Fused {
 const HUBER: f64 = 1.345;
 /// A share further off than this many standard uncertainties is an outlier.
 const OUTLYING: f64 = 3.0;
-/// Fewer do not tell which of them is off.
+/// With fewer shares than this nobody can say which of them is off.
 const FEWEST_TO_JUDGE: usize = 3;
-/// Sums settle within a few steps; a step limit makes sure that they end.
+/// Bound of the reweighting steps. The sums settle within a few.
 const STEPS: usize = 50;
-/// A robust SD, in median absolute deviations.
-const ROBUST_SD: f64 = 1.4826;
 /// More shares than this are fused without a consistency test, whose cost grows with the cube.
 const MOST_TO_TEST: usize = 500;
 
-/// Fuses sizes: weighted by inverse variance, robustly. A share off by more than [`HUBER`] of its own uncertainty about the
-/// others counts less. None for no shares.
+/// The robust mean of sizes, weighted by their inverse variances; `None` when there are no shares. A share that is off from
+/// the others by more than `HUBER` of its own uncertainties counts less.
 ///
-/// Errors from sources that the shares have in common pull them alike and do not average out: with weights w and derivatives
-/// g the fused size has the derivatives sum w g, and its variance follows from those.
+/// Errors from sources that the shares have in common move them alike and do not average out: with weights w and derivatives
+/// g the fused size has the derivatives sum(w g), and its variance follows from those.
 #[must_use]
 pub fn fuse(shares: &[Share]) -> Option<Fused> {
     let covariance = shares.first()?.inputs.common();
@@ -90,7 +88,7 @@ pub fn fuse(shares: &[Share]) -> Option<Fused> {
     let mut off = vec![0.0; shares.len()];
     if shares.len() >= FEWEST_TO_JUDGE {
         for _ in 0..STEPS {
-            off = standardised(shares, &weights, value_mm, &covariance);
+            off = standardised_residuals(shares, &weights, value_mm, &covariance);
             let factors = off.iter().map(|t| if t.abs() > HUBER { HUBER / t.abs() } else { 1.0 });
             weights = normalised(&base.iter().zip(factors).map(|(w, f)| w * f).collect::<Vec<_>>());
             let next = weighted_mean(shares, &weights);
@@ -108,7 +106,7 @@ pub fn fuse(shares: &[Share]) -> Option<Fused> {
     let terms = shares.iter().zip(&weights).map(|(s, w)| (*w, &s.sensitivity, &s.inputs, s.picture));
     Some(Fused {
         value_mm,
-        sigma: combined(terms),
+        sigma: combined_sigma(terms),
         spread_mm: ErrorStats::from_errors(&values).and_then(|stats| stats.sample_sd),
         weights,
         outliers,
@@ -116,12 +114,12 @@ pub fn fuse(shares: &[Share]) -> Option<Fused> {
     })
 }
 
-/// Smaller variances are nothing, in mm^2.
+/// Smaller variances than this count as this, in mm^2.
 const TINY: f64 = 1e-18;
 
-/// Uncertainty of a weighted sum of sizes: each term is weight, derivatives, inputs and number of its picture. What pictures
-/// have in common is taken from the first term.
-pub(crate) fn combined<'a>(
+/// The uncertainty of a weighted sum of sizes. Each term is a weight, the derivatives of a size, the inputs of its picture and
+/// the number of that picture. The covariance that pictures have in common is taken from the first term.
+pub(crate) fn combined_sigma<'a>(
     terms: impl IntoIterator<Item = (f64, &'a Sensitivity, &'a InputSigma, usize)>,
 ) -> SizeSigma {
     let mut by_source = PerSource::zeros();
@@ -135,9 +133,10 @@ pub(crate) fn combined<'a>(
         marks_variance += (weight * sensitivity.marks_mm_per_px * inputs.mark_px).powi(2);
     }
     let noise = by_picture.values().map(|(by, variance)| by.map(|d| d * d).component_mul(variance)).sum();
-    SizeSigma::of_parts(&by_source, &covariance.unwrap_or_default(), noise, marks_variance.sqrt())
+    SizeSigma::from_parts(&by_source, &covariance.unwrap_or_default(), noise, marks_variance.sqrt())
 }
 
+/// The weights, scaled to add up to 1.
 fn normalised(weights: &[f64]) -> Vec<f64> {
     let sum: f64 = weights.iter().sum();
     weights.iter().map(|w| w / sum).collect()
@@ -147,6 +146,7 @@ fn weighted_mean(shares: &[Share], weights: &[f64]) -> f64 {
     shares.iter().zip(weights).map(|(share, w)| share.value_mm * w).sum()
 }
 
+/// The smallest size below or at which at least half of the weight lies.
 fn weighted_median(shares: &[Share], weights: &[f64]) -> f64 {
     let mut order: Vec<usize> = (0..shares.len()).collect();
     order.sort_by(|&a, &b| shares[a].value_mm.total_cmp(&shares[b].value_mm));
@@ -160,9 +160,9 @@ fn weighted_median(shares: &[Share], weights: &[f64]) -> f64 {
     order.last().map_or(f64::NAN, |&i| shares[i].value_mm)
 }
 
-/// How far every share is off, in its standard uncertainties about the others: what they have in common counts only as far as
-/// it moves them differently. Where the whole lot scatters more than stated, the unit is that scatter.
-fn standardised(
+/// How far each share is off from the others, in its own standard uncertainties. Sources that they have in common count only as
+/// far as they move the shares differently. Where all shares scatter more than stated, the unit is that scatter.
+fn standardised_residuals(
     shares: &[Share],
     weights: &[f64],
     value_mm: f64,
@@ -172,8 +172,8 @@ fn standardised(
     let off: Vec<f64> = shares
         .iter()
         .map(|share| {
-            let differs = share.sensitivity.by_source - mean;
-            let own = own_variance(share) * share.penalty + (covariance * differs).dot(&differs);
+            let difference = share.sensitivity.by_source - mean;
+            let own = own_variance(share) * share.penalty + (covariance * difference).dot(&difference);
             (share.value_mm - value_mm) / own.max(TINY).sqrt()
         })
         .collect();
@@ -181,12 +181,13 @@ fn standardised(
     off.into_iter().map(|t| t / scale).collect()
 }
 
-/// Variance of what a share has of its own: its picture's noise and its marks.
+/// The variance that a share does not have in common with other pictures: that of its picture's noise and of its marks.
 fn own_variance(share: &Share) -> f64 {
     let noise = share.sensitivity.by_noise().map(|d| d * d).dot(&share.inputs.noise());
     noise + (share.sensitivity.marks_mm_per_px * share.inputs.mark_px).powi(2)
 }
 
+/// The test of agreement; `None` for fewer than 2 or more than [`MOST_TO_TEST`] shares, or where it has no finite value.
 fn consistency(shares: &[Share]) -> Option<Consistency> {
     if !(2..=MOST_TO_TEST).contains(&shares.len()) {
         return None;
@@ -214,11 +215,12 @@ fn consistency(shares: &[Share]) -> Option<Consistency> {
     chi_squared.is_finite().then_some(Consistency { chi_squared, degrees, verdict })
 }
 
-/// A Gaussian number exceeds this in 1 of 100 cases.
+/// A number of a standard normal distribution exceeds this in 1 of 100 cases.
 const ONE_PER_CENT: f64 = 2.326_347_9;
 
-/// Wilson and Hilferty (PNAS 1931): the cube root of chi-square over its degrees of freedom is nearly Gaussian. At 1 % the
-/// chi-square limits are right to 2 % for one degree of freedom and to 0.3 % for three or more.
+/// The number of a standard normal distribution that is exceeded as seldom as this chi-square, by Wilson and Hilferty (PNAS
+/// 1931): the cube root of chi-square over its degrees of freedom is nearly Gaussian. At 1 % the limits of chi-square are right to 2 % for one degree of freedom
+/// and to 0.3 % for three or more.
 fn normal_score(chi_squared: f64, degrees: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a count of sizes is far below 2^53")]
     let spread = 2.0 / (9.0 * degrees as f64);
@@ -231,7 +233,7 @@ fn normal_score(chi_squared: f64, degrees: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// Tables of the chi-square distribution, upper 1 %.
+    /// The limits are those in tables of the chi-square distribution, upper 1 %.
     #[test]
     fn limits_of_one_per_cent() {
         for (degrees, limit, tolerance) in [(1, 6.635, 0.02), (3, 11.345, 0.003), (10, 23.209, 0.003)] {

@@ -1,58 +1,59 @@
-//! Pictures that show where sizes come from: pipeline makes them, report shows them.
+//! Pictures that show where sizes come from: pipeline makes them, and report shows them.
 
 use crate::marks::Feature;
 
-/// How a picture is shown.
+/// A view of a picture: the way in which it is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PictureView {
     /// As the camera took it.
     Camera,
-    /// With the lens corrected: straight lines are straight (Fig. 9 of the paper).
+    /// With the lens corrected, so that straight lines are straight (Fig. 9 of the paper).
     Corrected,
     /// Projected on the table plane Z = 0, with a grid in mm (Fig. 10 of the paper).
     Plane,
 }
 
-/// A mark as it lies in a picture that is shown.
+/// A mark in a picture that is shown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GalleryMark {
     /// Name of the object.
     pub object: String,
-    /// Who marked.
+    /// Name of the rater who made the mark.
     pub rater: String,
-    /// What of the object it shows.
+    /// The feature of the object that it outlines.
     pub feature: Feature,
-    /// Whether the last point joins the first.
+    /// Whether the last point is joined to the first.
     pub closed: bool,
-    /// Its points, in pixels of the picture as shown.
+    /// The points of the mark, in pixels of the picture as it is shown.
     pub points_px: Vec<[f64; 2]>,
 }
 
-/// A picture made to be looked at, with the marks on it.
+/// A picture for people to look at, with the marks on it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GalleryPicture {
     /// Name of the session.
     pub session: String,
     /// File of the image, relative to the card, as in the results.
     pub image: String,
-    /// How it is shown.
+    /// The way in which the picture is shown.
     pub view: PictureView,
-    /// Width and height as shown.
+    /// Width and height of the picture as it is shown.
     pub size_px: [u32; 2],
     /// The picture, as a JPEG file.
     pub jpeg: Vec<u8>,
-    /// What was marked in it.
+    /// The marks on the picture.
     pub marks: Vec<GalleryMark>,
 }
 
-/// Takes the pictures of a study, session by session in the order of their names, in a session by image, then by view.
+/// A sink for the pictures of a study: it takes them session by session in the order of their names, within a session by image
+/// and then by view.
 pub trait GallerySink {
-    /// Why a picture could not be taken.
+    /// The reason why a picture could not be taken.
     type Error: std::error::Error + Send + Sync + 'static;
 
-    /// Takes a picture.
+    /// Takes one picture.
     ///
     /// # Errors
-    /// When it cannot be stored.
+    /// When the picture cannot be stored.
     fn picture(&mut self, picture: GalleryPicture) -> Result<(), Self::Error>;
 }

@@ -1,49 +1,50 @@
-//! Height and wall slope of one bowl from several pictures.
+//! The height and the wall slope of one bowl from several pictures.
 
 use nalgebra::{Matrix2, Vector2};
 
-use crate::fusion::{Share, combined};
+use crate::fusion::{Share, combined_sigma};
 use crate::marks::ObjectMarks;
 use crate::measure::{HeightLine, MeasureError, Numbered, camera_height, possible_height};
 use crate::sensed::Sensed;
 use crate::uncertainty::{InputSigma, Sensitivity, SizeSigma};
 use crate::view::View;
 
-/// A wall as one picture shows it: foot at distance a, rim at distance b from the point under the camera, both on Z = 0.
+/// A wall as one picture shows it: on Z = 0 its foot is at the distance a from the point under the camera, and its rim at the
+/// distance b.
 ///
-/// A rim H above the table that overhangs its foot by s is seen at b with b (c - H) = c (a + s), so that
-/// b - a = H b / c + s: a straight line over pictures, with slope H and intercept s.
+/// With c the height of the camera, a rim that is H above the table and overhangs its foot by s is seen at
+/// b (c - H) = c (a + s). So b - a = H b / c + s, which is a straight line over pictures, with the slope H and the intercept s.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sight {
     view: View,
-    /// b - a.
+    /// b - a, in mm.
     projected: Sensed,
-    /// b / c, the cotangent of the depression of the rim's ray.
+    /// b / c, the cotangent of the depression of the ray to the rim.
     cotangent: Sensed,
 }
 
 impl Sight {
-    /// Cotangent of the depression at which the rim is seen.
+    /// The cotangent of the depression at which the rim is seen.
     #[must_use]
     pub fn cotangent(&self) -> f64 {
         self.cotangent.value
     }
 
-    /// What b - a - H b/c changes by.
-    fn sensitivity(&self, height_mm: f64, share: f64) -> Sensitivity {
-        let terms = [(share, &self.projected), (-share * height_mm, &self.cotangent)];
+    /// The derivatives of weight (b - a - H b / c), where H is `height_mm`.
+    fn sensitivity(&self, height_mm: f64, weight: f64) -> Sensitivity {
+        let terms = [(weight, &self.projected), (-weight * height_mm, &self.cotangent)];
         let residual = Sensed::of_numbers(0.0, terms, self.projected.points());
         Sensitivity { by_source: residual.by_source, marks_mm_per_px: residual.by_mark.norm() }
     }
 }
 
-/// The height lines marked on one picture.
+/// The walls that the height lines on one picture show, one for each line.
 ///
 /// # Errors
-/// [`MeasureError`] where an end has no place on the table.
+/// [`MeasureError`] when an end of a line has no place on the table.
 pub fn sights(view: &View, marks: &ObjectMarks) -> Result<Vec<Sight>, MeasureError> {
     let numbered = Numbered::from_marks(marks);
-    let of_line = |line: HeightLine| {
+    let sight = |line: HeightLine| {
         let [foot, rim] = line.distances(view, numbered.points)?;
         let above = camera_height(view, numbered.points);
         let cotangent = rim.value / above.value;
@@ -57,63 +58,63 @@ pub fn sights(view: &View, marks: &ObjectMarks) -> Result<Vec<Sight>, MeasureErr
             ),
         })
     };
-    numbered.height_lines().map(of_line).collect()
+    numbered.height_lines().map(sight).collect()
 }
 
-/// Why several pictures do not give a height together.
+/// The reason why several pictures do not give a height together.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum JointError {
-    /// One picture shows no slope.
+    /// There are fewer than two pictures, and one does not show the slope.
     #[error("the rim is seen in {0} pictures; height and wall slope together need two or more, at different pitches")]
     TooFew(usize),
-    /// The rim is seen under all but the same angle.
+    /// The rim is seen at nearly the same angle in all pictures.
     #[error(
         "the pictures show the wall from too much the same angle: {height_mm:.0} mm with an uncertainty of {sigma_mm:.0} mm; \
          use pictures whose pitches differ by 10 degrees or more"
     )]
     TooAlike {
-        /// The height that they would give.
+        /// The height that the pictures would give.
         height_mm: f64,
-        /// Its standard uncertainty.
+        /// The standard uncertainty of that height.
         sigma_mm: f64,
     },
-    /// A height that the wall cannot have.
+    /// The height is one that the wall cannot have.
     #[error(transparent)]
     Impossible(#[from] MeasureError),
 }
 
 impl JointError {
-    /// Stable code, as in the `flags` of the results.
+    /// The stable code of the error, which stands in the `flags` of the results.
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {
             Self::TooFew(_) => "too_few_pictures",
             Self::TooAlike { .. } => "pictures_too_alike",
-            Self::Impossible(error) => error.code(),
+            Self::Impossible(error) => error.problem_code().code(),
         }
     }
 }
 
-/// Height and overhang from several pictures.
+/// The height and the overhang of a wall from several pictures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointHeight {
-    /// Height of the rim.
+    /// Height of the rim above the table.
     pub height_mm: f64,
-    /// How far the rim overhangs its foot, away from the wearer.
+    /// How far the rim overhangs the foot, away from the wearer.
     pub overhang_mm: f64,
-    /// What the height changes by through each picture.
+    /// Derivatives of the height through each picture.
     pub shares: Vec<Sensitivity>,
-    /// Uncertainties of each picture.
+    /// Standard uncertainties of each picture's inputs.
     pub inputs: Vec<InputSigma>,
-    /// Its uncertainty.
+    /// Standard uncertainty of the height.
     pub sigma: SizeSigma,
 }
 
 impl JointHeight {
-    /// Uncertainty of a size that was measured on this height's plane in each picture and then fused. `shares`: the sizes on
-    /// the plane taken as exact, with pictures numbered as [`joint_height`] had them; `weights`: as [`fuse`](crate::fuse())
-    /// gave them; `camera_heights_mm`: of each share's picture above the table. Lifting a plane scales it about the point
-    /// under the camera, so a size changes by -size / (c - H) per height.
+    /// The uncertainty of a size that was measured on the plane at this height in each picture, and then fused. `shares`: the
+    /// sizes on the plane, taken as exact, with pictures numbered as [`joint_height`] had them. `weights`: those that
+    /// [`fuse`](crate::fuse()) gave. `camera_heights_mm`: the height of the camera above the table for each share. Lifting a
+    /// plane scales it about the point under the camera, so a size changes by -size / (c - H) per height.
     #[must_use]
     pub fn sigma_on_plane(&self, shares: &[Share], weights: &[f64], camera_heights_mm: &[f64]) -> SizeSigma {
         let by_height: f64 = shares
@@ -122,31 +123,31 @@ impl JointHeight {
             .zip(camera_heights_mm)
             .map(|((share, w), c)| -w * share.value_mm / (c - self.height_mm))
             .sum();
-        let of_sizes = shares.iter().zip(weights).map(|(s, w)| (*w, &s.sensitivity, &s.inputs, s.picture));
-        let of_height = self.shares.iter().zip(&self.inputs).enumerate();
-        combined(of_sizes.chain(of_height.map(|(picture, (s, inputs))| (by_height, s, inputs, picture))))
+        let size_terms = shares.iter().zip(weights).map(|(s, w)| (*w, &s.sensitivity, &s.inputs, s.picture));
+        let height_terms = self.shares.iter().zip(&self.inputs).enumerate();
+        combined_sigma(size_terms.chain(height_terms.map(|(picture, (s, inputs))| (by_height, s, inputs, picture))))
     }
 }
 
-/// A height whose uncertainty is more than this share of it is none: beyond it, first order means nothing.
+/// A height is refused when its uncertainty is more than this share of it, beyond which first order has no meaning.
 const LARGEST_SHARE: f64 = 0.35;
 
-/// Weighted line through the sights of pictures, each with its own inputs. Pictures must be different ones; lines of one
-/// picture are averaged before.
+/// The height and the overhang by a weighted straight line through the sights of all pictures. Each picture comes with its
+/// own inputs and must be given only once; the sights of one picture are averaged.
 ///
 /// # Errors
-/// [`JointError`] where the pictures do not determine a height.
+/// [`JointError`] when the pictures do not determine a height.
 pub fn joint_height(pictures: &[(Vec<Sight>, InputSigma)]) -> Result<JointHeight, JointError> {
     let pictures: Vec<(Sight, &InputSigma)> =
-        pictures.iter().filter_map(|(sights, inputs)| Some((mean(sights)?, inputs))).collect();
+        pictures.iter().filter_map(|(sights, inputs)| Some((mean_sight(sights)?, inputs))).collect();
     if pictures.len() < 2 {
         return Err(JointError::TooFew(pictures.len()));
     }
     let mut height_mm = 0.0;
     let (mut by_picture, mut overhang_mm) = (Vec::new(), 0.0);
-    // The weights depend on the height, weakly.
+    // The weights depend weakly on the height.
     for _ in 0..3 {
-        let (coefficients, solution) = line(&pictures, height_mm)?;
+        let (coefficients, solution) = weighted_line(&pictures, height_mm)?;
         by_picture = coefficients;
         height_mm = solution.x;
         overhang_mm = solution.y;
@@ -154,7 +155,7 @@ pub fn joint_height(pictures: &[(Vec<Sight>, InputSigma)]) -> Result<JointHeight
     let shares: Vec<Sensitivity> =
         pictures.iter().zip(&by_picture).map(|((sight, _), a)| sight.sensitivity(height_mm, *a)).collect();
     let terms = shares.iter().zip(&pictures).enumerate().map(|(i, (share, (_, inputs)))| (1.0, share, *inputs, i));
-    let sigma = combined(terms);
+    let sigma = combined_sigma(terms);
     for (sight, _) in &pictures {
         possible_height(&sight.view, height_mm)?;
     }
@@ -165,15 +166,16 @@ pub fn joint_height(pictures: &[(Vec<Sight>, InputSigma)]) -> Result<JointHeight
     Ok(JointHeight { height_mm, overhang_mm, shares, inputs, sigma })
 }
 
-fn mean(sights: &[Sight]) -> Option<Sight> {
-    let of = |number: fn(&Sight) -> &Sensed| {
+/// The mean of the sights of one picture; `None` when there are none.
+fn mean_sight(sights: &[Sight]) -> Option<Sight> {
+    let mean = |number: fn(&Sight) -> &Sensed| {
         Sensed::mean(&sights.iter().map(|sight| number(sight).clone()).collect::<Vec<_>>())
     };
-    Some(Sight { view: sights.first()?.view, projected: of(|s| &s.projected)?, cotangent: of(|s| &s.cotangent)? })
+    Some(Sight { view: sights.first()?.view, projected: mean(|s| &s.projected)?, cotangent: mean(|s| &s.cotangent)? })
 }
 
-/// Derivative of the height by each picture's b - a, and the solution (H, s) of the weighted normal equations.
-fn line(pictures: &[(Sight, &InputSigma)], height_mm: f64) -> Result<(Vec<f64>, Vector2<f64>), JointError> {
+/// The derivative of the height by each picture's b - a, and the solution (H, s) of the weighted normal equations.
+fn weighted_line(pictures: &[(Sight, &InputSigma)], height_mm: f64) -> Result<(Vec<f64>, Vector2<f64>), JointError> {
     let weights: Vec<f64> = pictures
         .iter()
         .map(|(sight, inputs)| {

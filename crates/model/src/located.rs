@@ -1,31 +1,32 @@
-//! A marked point on a level plane, with its derivatives by everything it was worked out from.
+//! Marked points on level planes, with their derivatives by everything that they were computed from.
 
 use nalgebra::{Matrix2, Point2, SMatrix, Vector2, Vector3};
 
 use crate::source::{SOURCES, Source};
 use crate::view::{View, ViewError};
 
-/// Derivatives of a point on a plane by the [`Source`]s, one column each.
+/// Derivatives of a point on a plane by the [`Source`]s, with one column for each source.
 pub(crate) type BySource = SMatrix<f64, 2, SOURCES>;
 
-/// A marked point on a level plane.
+/// The place of a marked point on a level plane, with its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Located {
-    /// World X and Y in mm.
+    /// World X and Y, in mm.
     pub point_mm: Point2<f64>,
-    /// By the sources that all marks of a picture share.
+    /// Derivatives by the sources that all marks of a picture share.
     pub by_source: BySource,
-    /// By its own pixel, in mm per px.
+    /// Derivatives by the point's own pixel, in mm per px.
     pub by_pixel: Matrix2<f64>,
-    /// By the height of the plane, in mm per mm.
+    /// Derivatives by the height of the plane, in mm per mm.
     pub by_plane_z: Vector2<f64>,
 }
 
 impl Located {
-    /// Place of `pixel` on the plane `plane_z_mm`.
+    /// The place of `pixel` on the plane at the height `plane_z_mm`.
     ///
-    /// With r the ray in the world frame, q = -r.z and h the camera's height above the plane, P = r.xy h / q. A small turn
-    /// of the camera turns r, and a change of pitch or range changes h as well; derivatives of rotations are cross products.
+    /// With r the ray in the world frame, q = -r.z and h the camera's height above the plane, the place is P = r.xy h / q. A
+    /// small turn of the camera turns r, and a change of pitch or range changes h as well. Derivatives of rotations are cross
+    /// products.
     pub(crate) fn on_plane(view: &View, pixel: Point2<f64>, plane_z_mm: f64) -> Result<Self, ViewError> {
         let point_mm = view.on_plane(pixel, plane_z_mm)?;
         let (ray_in_camera, ray_by_pixel) = view.camera().ray_and_derivative(pixel)?;
@@ -33,16 +34,16 @@ impl Located {
         let world_from_camera = pose.world_from_camera();
         let ray = world_from_camera * ray_in_camera;
         let (q, above_mm) = (-ray.z, pose.camera_height_mm() - plane_z_mm);
-        // P by r: h / q [I2, xy / q].
+        // The derivative of P by r is h / q [I2, r.xy / q].
         let by_ray = |turn: Vector3<f64>| (turn.xy() + ray.xy() * (turn.z / q)) * (above_mm / q);
         let by_height = ray.xy() / q;
         let columns = world_from_camera * ray_by_pixel;
         let by_pixel = Matrix2::from_columns(&[by_ray(columns.column(0).into()), by_ray(columns.column(1).into())]);
         let (sin_pitch, cos_pitch) = pose.pitch_rad().sin_cos();
         let (sin_roll, cos_roll) = pose.roll_rad().sin_cos();
-        // Pitching down turns forward to down: (x, y, -q) by (0, -q, -y).
+        // Pitching down turns the forward direction down: the ray (x, y, -q) changes by (0, -q, -y).
         let by_pitch = by_ray(Vector3::new(0.0, -q, -ray.y)) + by_height * (pose.range_mm() * cos_pitch);
-        // Tilting to the right turns left to down: (x, y, -q) by (-q, 0, -x).
+        // Tilting to the right turns the right-hand direction down: the ray (x, y, -q) changes by (-q, 0, -x).
         let by_tilt = by_ray(Vector3::new(-q, 0.0, -ray.x));
         let by_range = by_height * sin_pitch;
         let mut by_source = BySource::zeros();

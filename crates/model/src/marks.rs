@@ -1,4 +1,4 @@
-//! What a person (or a detector) marked on one picture.
+//! Marks that a person or the program made on one picture.
 
 use nalgebra::Point2;
 
@@ -6,26 +6,26 @@ use crate::codes::coded_enum;
 use crate::container::Quantity;
 
 coded_enum! {
-    /// A closed curve of a container.
+    /// A closed curve of a container that can be outlined.
     Feature {
         Rim = "rim": "the upper edge, on the plane Z = H (a plate: on the table plane)",
         Base = "base": "the edge of the foot, on the table plane Z = 0",
     }
 }
 
-/// One mark, in pixels of the picture that was marked.
+/// One mark, in pixels of the picture that it was made on.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mark {
-    /// A line between two ends. For [`Quantity::Height`]: from the wall's foot on the table to the rim above it.
+    /// A line between two ends. For [`Quantity::Height`] it runs from the wall's foot on the table to the rim above it.
     Line {
-        /// What its length is.
+        /// The size that the line shows.
         quantity: Quantity,
-        /// Its ends.
+        /// The ends of the line.
         ends_px: [Point2<f64>; 2],
     },
     /// Points along a closed curve, in order.
     Outline {
-        /// Which curve.
+        /// The curve that the points follow.
         feature: Feature,
         /// The points.
         points_px: Vec<Point2<f64>>,
@@ -33,7 +33,7 @@ pub enum Mark {
 }
 
 impl Mark {
-    /// Its points.
+    /// The points of the mark: the two ends of a line, or all points of an outline.
     #[must_use]
     pub fn points_px(&self) -> &[Point2<f64>] {
         match self {
@@ -48,13 +48,13 @@ impl Mark {
 pub struct ObjectMarks {
     /// Name of the object, as in objects.csv.
     pub object: String,
-    /// Its marks, in file order.
+    /// The marks of the object, in the order of the file.
     pub marks: Vec<Mark>,
 }
 
 impl ObjectMarks {
-    /// Whether every point lies in a picture of this width and height. A fitted rim may run over the border; a point set
-    /// by hand may not.
+    /// Whether every marked point lies in a picture of this width and height. A fitted rim may run over the border, while a
+    /// point that was set by hand may not.
     #[must_use]
     pub fn inside_picture(&self, [width, height]: [u32; 2]) -> bool {
         let inside = |point: &Point2<f64>| {

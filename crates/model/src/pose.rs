@@ -1,12 +1,12 @@
-//! Where the camera is: pitch, roll and range to the table.
+//! The pose of the camera: its pitch, its roll and its range to the table.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Matrix3, Vector3};
 
-/// Pose of the camera above the table.
+/// The pose of the camera above the table.
 ///
-/// Yaw is not observable and not needed: the world frame turns with the wearer.
+/// Yaw cannot be observed and is not needed: the world frame turns with the wearer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     pitch_rad: f64,
@@ -14,7 +14,7 @@ pub struct Pose {
     range_mm: f64,
 }
 
-/// Why numbers do not make a pose.
+/// The reason why numbers do not make a pose.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum PoseError {
     /// The optical axis never meets the table.
@@ -23,34 +23,35 @@ pub enum PoseError {
          never meets the table)"
     )]
     NotBelowHorizon {
-        /// The pitch given.
+        /// The pitch that was given.
         pitch_deg: f64,
     },
-    /// Roll outside (-180, 180] degrees.
+    /// The roll is outside [-180, 180] degrees.
     #[error("roll {roll_deg:.2} degrees: expected -180 to 180")]
     Roll {
-        /// The roll given.
+        /// The roll that was given.
         roll_deg: f64,
     },
-    /// Range not a positive finite number.
+    /// The range is not a positive finite number.
     #[error("range {range_mm} mm: expected a positive number")]
     Range {
-        /// The range given.
+        /// The range that was given.
         range_mm: f64,
     },
-    /// A gravity vector of no length.
+    /// The gravity vector has no length, or is not finite.
     #[error("gravity has no direction: all components are zero or not finite")]
     NoGravity,
 }
 
 impl Pose {
-    /// `pitch_rad`: depression of the optical axis below the horizontal, in (0, pi/2]. `roll_rad`: in [-pi, pi],
-    /// positive clockwise as the wearer sees it. `range_mm`: distance to the table along the optical axis.
+    /// The pose with these angles and this range. `pitch_rad`: depression of the optical axis below the horizontal, in
+    /// (0, pi/2]. `roll_rad`: in [-pi, pi], positive clockwise as the wearer sees it. `range_mm`: distance to the table along
+    /// the optical axis, above 0.
     ///
     /// # Errors
     /// [`PoseError`] when a number is outside its range.
     pub fn new(pitch_rad: f64, roll_rad: f64, range_mm: f64) -> Result<Self, PoseError> {
-        // asin of a rounded vector may exceed pi/2 by an ulp
+        // The arcsine of a rounded vector may exceed pi/2 by one ulp.
         if !(pitch_rad > 0.0 && pitch_rad <= FRAC_PI_2 + 1e-12) {
             return Err(PoseError::NotBelowHorizon { pitch_deg: pitch_rad.to_degrees() });
         }
@@ -63,7 +64,7 @@ impl Pose {
         Ok(Self { pitch_rad, roll_rad, range_mm })
     }
 
-    /// Pitch and roll of a camera in whose frame `down` points down (any length), in radians.
+    /// Pitch and roll, in radians, of a camera in whose frame the vector `down` points down. It may have any length.
     ///
     /// # Errors
     /// [`PoseError::NoGravity`] when the vector has no direction.
@@ -75,13 +76,13 @@ impl Pose {
         Ok(((down.z / length).clamp(-1.0, 1.0).asin(), down.x.atan2(down.y)))
     }
 
-    /// Depression of the optical axis below the horizontal.
+    /// Depression of the optical axis below the horizontal, in (0, pi/2].
     #[must_use]
     pub fn pitch_rad(&self) -> f64 {
         self.pitch_rad
     }
 
-    /// Roll about the optical axis.
+    /// Roll about the optical axis, in [-pi, pi], positive clockwise as the wearer sees it.
     #[must_use]
     pub fn roll_rad(&self) -> f64 {
         self.roll_rad
@@ -93,7 +94,7 @@ impl Pose {
         self.range_mm
     }
 
-    /// The same pose with the roll taken as zero, as the paper does.
+    /// This pose with the roll taken as zero, as the paper takes it.
     #[must_use]
     pub fn without_roll(self) -> Self {
         Self { roll_rad: 0.0, ..self }
@@ -105,7 +106,7 @@ impl Pose {
         self.range_mm * self.pitch_rad.sin()
     }
 
-    /// Unit vector 'down' in the camera frame.
+    /// The unit vector that points down, in the camera frame.
     #[must_use]
     pub fn down_in_camera(&self) -> Vector3<f64> {
         let (sin_pitch, cos_pitch) = self.pitch_rad.sin_cos();
@@ -113,8 +114,9 @@ impl Pose {
         Vector3::new(sin_roll * cos_pitch, cos_roll * cos_pitch, sin_pitch)
     }
 
-    /// Rotation that takes a direction in the camera frame to the world frame. Its rows are the world axes right,
-    /// forward and up in the camera frame; looking straight down (pitch = 90 degrees), forward is the top of the picture.
+    /// The rotation that takes a direction in the camera frame to the world frame. Its rows are the world's axes (right,
+    /// forward and up) in the camera frame. For a camera looking straight down (pitch = 90 degrees), forward is towards the
+    /// top of the picture.
     #[must_use]
     pub fn world_from_camera(&self) -> Matrix3<f64> {
         let (sin_pitch, cos_pitch) = self.pitch_rad.sin_cos();

@@ -5,13 +5,14 @@ use nalgebra::{DVector, Matrix1x2, Vector2};
 use crate::located::Located;
 use crate::source::PerSource;
 
-/// A number worked out from marks and pose, with its derivatives by the sources and by every marked coordinate of the
-/// object. Each formula gives its value and its partial derivatives; the chain rule is here.
+/// A number that was computed from marks and pose, with its derivatives by the sources and by every marked coordinate of the
+/// object. Each formula gives its value and its partial derivatives; the chain rule is applied here.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sensed {
     pub value: f64,
+    /// Derivatives by the sources.
     pub by_source: PerSource,
-    /// x and y of the first marked point, of the second, ...
+    /// Derivatives by x and y of the first marked point, then of the second, and so on.
     pub by_mark: DVector<f64>,
 }
 
@@ -21,12 +22,12 @@ impl Sensed {
         Self { value, by_source: PerSource::zeros(), by_mark: DVector::zeros(2 * points) }
     }
 
-    /// A number that does not depend on marks.
+    /// A number that depends on the sources but not on the marks.
     pub(crate) fn of_sources(value: f64, by_source: PerSource, points: usize) -> Self {
         Self { value, by_source, by_mark: DVector::zeros(2 * points) }
     }
 
-    /// `value`, worked out from numbers that it changes with by these derivatives.
+    /// `value`, which was computed from other numbers. Each term is the derivative by a number, and that number.
     pub(crate) fn of_numbers<'a>(value: f64, terms: impl IntoIterator<Item = (f64, &'a Self)>, points: usize) -> Self {
         let mut sum = Self::exact(value, points);
         for (derivative, term) in terms {
@@ -36,8 +37,8 @@ impl Sensed {
         sum
     }
 
-    /// `value`, worked out from places on a plane; each comes with the number of its mark and the derivative by it. `plane_z`:
-    /// the height of that plane, where it was measured as well.
+    /// `value`, which was computed from places on a plane. Each term is the number of a marked point, its place, and the
+    /// derivative by that place. `plane_z` is the height of the plane, which may have been measured as well.
     pub(crate) fn of_places<'a>(
         value: f64,
         terms: impl IntoIterator<Item = (usize, &'a Located, Vector2<f64>)>,
@@ -58,12 +59,12 @@ impl Sensed {
         sum
     }
 
-    /// How many marked points there are.
+    /// The number of marked points of the object.
     pub(crate) fn points(&self) -> usize {
         self.by_mark.len() / 2
     }
 
-    /// The mean of several numbers; none of none.
+    /// The mean of several numbers; `None` when there are none.
     pub(crate) fn mean(numbers: &[Self]) -> Option<Self> {
         let points = numbers.first()?.points();
         #[expect(clippy::cast_precision_loss, reason = "a count of marks is far below 2^53")]

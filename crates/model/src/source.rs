@@ -1,13 +1,13 @@
-//! Where the errors of a size come from.
+//! The sources of error that the sizes of a picture share.
 
 use nalgebra::SMatrix;
 
 use crate::codes::coded_enum;
 
 coded_enum! {
-    /// What all marks of a picture, and but for its noise all pictures of a session, are wrong by together.
+    /// A source of error that all marks of a picture share, and that all pictures of a session share but for their noise.
     ///
-    /// A size's derivatives by these make its covariance with any other size: an error that two sizes share moves both.
+    /// The derivatives of two sizes by the sources give the covariance of the sizes: an error that both share moves both.
     Source {
         Pitch = "pitch": "pitch of the device from its accelerometer, in rad",
         Tilt = "tilt": "sideways tilt of the device about the horizontal direction of sight, in rad; the roll changes by it over cos(pitch)",
@@ -21,17 +21,17 @@ coded_enum! {
     }
 }
 
-/// How many sources there are.
+/// The number of sources.
 pub const SOURCES: usize = Source::ALL.len();
 
-/// One number per [`Source`], in their order.
+/// One number for each [`Source`], in their order.
 pub type PerSource = SMatrix<f64, SOURCES, 1>;
 
-/// Covariance of the [`Source`]s.
+/// The covariance of the [`Source`]s, in their order and units.
 pub type SourceCovariance = SMatrix<f64, SOURCES, SOURCES>;
 
 impl Source {
-    /// Its place in a [`PerSource`].
+    /// The place of this source in a [`PerSource`].
     #[must_use]
     pub const fn index(self) -> usize {
         self as usize

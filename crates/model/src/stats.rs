@@ -1,4 +1,4 @@
-//! Statistics of signed errors, as the paper counts them.
+//! Statistics of signed errors, as the paper defines them.
 
 /// Statistics of a sample of signed errors (any unit; the tables use per cent).
 ///
@@ -9,7 +9,7 @@ pub struct ErrorStats {
     pub n: usize,
     /// Mean of the signed errors: the bias.
     pub mean: f64,
-    /// SD with divisor n - 1; none for a single error.
+    /// SD with divisor n - 1; `None` for a single error.
     pub sample_sd: Option<f64>,
     /// SD with divisor n.
     pub population_sd: f64,
@@ -17,14 +17,14 @@ pub struct ErrorStats {
     pub mean_absolute: f64,
     /// Median of the absolute errors.
     pub median_absolute: f64,
-    /// Root mean square.
+    /// Root mean square of the errors.
     pub rms: f64,
     /// The error with the largest absolute value, with its sign.
     pub worst: f64,
 }
 
 impl ErrorStats {
-    /// Statistics of `errors`, or none when there are none. Numbers that are not finite are the caller's to remove.
+    /// Statistics of `errors`; `None` when there are no errors. The caller must have removed numbers that are not finite.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a count of errors is far below 2^53")]
     pub fn from_errors(errors: &[f64]) -> Option<Self> {
@@ -45,7 +45,10 @@ impl ErrorStats {
     }
 }
 
-/// Median: the middle value, or the mean of the two middle ones. Not a number for no values.
+/// The robust SD of a Gaussian sample, in median absolute deviations.
+pub(crate) const ROBUST_SD: f64 = 1.4826;
+
+/// Median of `values`: the middle value, or the mean of the two middle ones. NaN when there are no values.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> f64 {
     if values.is_empty() {
@@ -61,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn small_sample_by_hand() {
+    fn a_small_sample_agrees_with_hand_values() {
         let stats = ErrorStats::from_errors(&[-2.0, 1.0, 4.0]).expect("not empty");
         assert_eq!(stats.n, 3);
         assert!((stats.mean - 1.0).abs() < 1e-15);

@@ -1,11 +1,12 @@
-//! How a session fared.
+//! The status of a session, and the problems that it had.
 
 use serde::{Deserialize, Serialize};
 
 use crate::codes::coded_enum;
+use crate::problem_code::ProblemCode;
 
 coded_enum! {
-    /// Where in the road a problem arose.
+    /// The stage of the work at which a problem arose.
     Stage {
         Study = "study": "reading study.toml and the files it names",
         Ingest = "ingest": "reading the SD card",
@@ -16,46 +17,46 @@ coded_enum! {
 }
 
 coded_enum! {
-    /// What a problem cost.
+    /// The cost of a problem.
     Severity {
         Loss = "loss": "data was lost or could not be used: exit code 3",
         Note = "note": "worth knowing, nothing was lost by it",
     }
 }
 
-/// One thing that went wrong, for the person who must act on it.
+/// A problem: one thing that went wrong, for the person who must act on it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Problem {
-    /// What it cost.
+    /// The cost of the problem.
     pub severity: Severity,
-    /// Where in the road.
+    /// The stage at which it arose.
     pub stage: Stage,
-    /// Stable code, snake case.
-    pub code: String,
-    /// The file or folder, relative to the study.
+    /// The stable code, in snake case.
+    pub code: ProblemCode,
+    /// The file or folder that it concerns, relative to the study.
     pub place: String,
-    /// What is wrong: expected and got.
+    /// The fact: what was expected, and what there is.
     pub fact: String,
-    /// What to do about it.
+    /// The remedy: what a person can do about it.
     pub remedy: String,
 }
 
-/// How one session fared.
+/// The status of one session after a run.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SessionStatus {
     /// Name of the session.
     pub session: String,
     /// Whether nothing of the session could be used.
     pub failed: bool,
-    /// Images on the card.
+    /// Number of images on the card.
     pub images: usize,
-    /// Images with a pose.
+    /// Number of images with a pose.
     pub with_pose: usize,
-    /// Images used for fused sizes.
+    /// Number of images used for fused sizes.
     pub selected: usize,
-    /// Sizes that could be measured: of single images and fused, by all methods.
+    /// Number of sizes that could be measured, of single images and fused, by all methods.
     pub sizes: usize,
-    /// What went wrong, and what is worth knowing; empty when all is well.
+    /// The problems of the session, losses and notes; empty when all is well.
     pub problems: Vec<Problem>,
 }
 

@@ -1,5 +1,5 @@
-//! Which error tables a study asks for, and what was printed for them elsewhere. Travels inside the results file, so that
-//! a report needs nothing else.
+//! The error tables that a study asks for, with the numbers that a publication printed for them. They travel inside the
+//! results file, so that a report needs nothing else.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,7 @@ use crate::codes::coded_enum;
 use crate::container::{Kind, Method, Quantity};
 
 coded_enum! {
-    /// How the rows of a table are made, and with them its statistics.
+    /// The layout of an error table, which decides its rows and its statistics.
     TableLayout {
         Setups = "setups": "one row per object and bench setup; mean and sample SD (n - 1) per object and overall (Tables II-IV)",
         Raters = "raters": "one row per object, one column per rater; the error is that of the raters' mean; mean and population SD (n) over rows (Tables V, VI)",
@@ -15,36 +15,36 @@ coded_enum! {
 }
 
 coded_enum! {
-    /// Which frames a table is made from.
+    /// The selection of frames that a table is made from.
     Selection {
         All = "all": "every measured frame, whatever its pitch",
         NearTarget = "near_target": "only selected frames: still, with pitch near the target",
     }
 }
 
-/// One error table.
+/// The specification of one error table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TableSpec {
     /// Short name, used in file names: 'II' gives table_II.csv.
     pub id: String,
-    /// Caption.
+    /// Caption of the table.
     pub title: String,
-    /// Layout. `setups` uses rows of level `frame`, `raters` rows of level `fused`.
+    /// The layout. `setups` uses rows of level `frame`, and `raters` rows of level `fused`.
     pub layout: TableLayout,
-    /// Quantities, any of them.
+    /// The quantities that the table covers.
     pub quantities: Vec<Quantity>,
-    /// Method.
+    /// The method that measured the sizes.
     pub method: Method,
-    /// Frames.
+    /// The frames that count.
     pub selection: Selection,
-    /// Objects in the order of the rows; empty for all objects of `kinds` in the order of their names.
+    /// The objects in the order of the rows; empty for all objects of `kinds`, in the order of their names.
     #[serde(default)]
     pub objects: Vec<String>,
-    /// Kinds of container; empty for all.
+    /// The kinds of container; empty for all kinds.
     #[serde(default)]
     pub kinds: Vec<Kind>,
-    /// What a publication printed for the same table.
+    /// The numbers that a publication printed for the same table.
     #[serde(default)]
     pub printed: Option<PrintedTable>,
     /// Footnotes, for instance misprints.
@@ -56,31 +56,31 @@ pub struct TableSpec {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PrintedTable {
-    /// Where they were printed.
+    /// The publication that printed them.
     pub source: String,
-    /// Rows.
+    /// The printed rows.
     pub rows: Vec<PrintedRow>,
-    /// Means and SDs, per object and overall.
+    /// The printed means and SDs, per object and overall.
     pub summaries: Vec<PrintedSummary>,
 }
 
-/// One printed row. Which fields it has depends on the layout.
+/// One printed row. The layout of the table decides which fields it has.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PrintedRow {
-    /// Object, as in objects.csv.
+    /// Name of the object, as in objects.csv.
     pub object: String,
     /// Nominal height of the camera above the table (`setups`).
     pub setup_height_mm: Option<f64>,
     /// Nominal pitch (`setups`).
     pub setup_pitch_deg: Option<f64>,
-    /// Rater (`raters`; one printed row per rater).
+    /// The rater (`raters`; there is one printed row per rater).
     pub rater: Option<String>,
-    /// Printed prediction.
+    /// The printed prediction.
     pub predicted_mm: Option<f64>,
-    /// Printed true size.
+    /// The printed true size.
     pub truth_mm: Option<f64>,
-    /// Printed error (`raters`: that of the raters' mean, the same in each of the object's rows).
+    /// The printed error (`raters`: that of the raters' mean, which is the same in each row of the object).
     pub error_pct: Option<f64>,
 }
 
@@ -88,27 +88,27 @@ pub struct PrintedRow {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PrintedSummary {
-    /// Object, or none for the whole table.
+    /// Name of the object; `None` for the whole table.
     pub object: Option<String>,
-    /// Printed mean.
+    /// The printed mean.
     pub mean_pct: f64,
-    /// Printed SD.
+    /// The printed SD.
     pub sd_pct: f64,
 }
 
-/// A footnote.
+/// A footnote of a table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Note {
-    /// The object whose rows it marks; none for the whole table (marked at the overall row).
+    /// The object whose rows carry the note; `None` for the whole table, whose overall row carries it.
     #[serde(default)]
     pub object: Option<String>,
-    /// Restricts it to the row of one setup: nominal height.
+    /// The nominal height of the setup to whose row the note is restricted.
     #[serde(default)]
     pub setup_height_mm: Option<f64>,
-    /// Restricts it to the row of one setup: nominal pitch.
+    /// The nominal pitch of the setup to whose row the note is restricted.
     #[serde(default)]
     pub setup_pitch_deg: Option<f64>,
-    /// What the reader must know.
+    /// The text of the note.
     pub text: String,
 }

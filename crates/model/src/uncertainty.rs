@@ -1,4 +1,4 @@
-//! What the uncertainty of the inputs does to a size: first-order propagation by analytic derivatives.
+//! The uncertainty of a size from that of its inputs: first-order propagation by analytic derivatives.
 
 use nalgebra::{Matrix4, Vector3};
 
@@ -9,46 +9,46 @@ use crate::measure::{MeasureError, Measured, Sized, sizes, view_of_method};
 use crate::source::{PerSource, Source, SourceCovariance};
 use crate::view::View;
 
-/// Standard uncertainties (k = 1) of what goes into a size (docs/uncertainty.md). But for [`Self::learned`] the errors are
+/// Standard uncertainties (k = 1) of the inputs of a size (docs/uncertainty.md). Except for [`Self::learned`] the errors are
 /// taken as independent of each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InputSigma {
-    /// Pitch of the device: what its accelerometer's zero-g offset does to all pictures of a session alike.
+    /// Pitch of the device: the effect of its accelerometer's zero-g offset, the same for all pictures of a session.
     pub pitch_rad: f64,
-    /// Sideways tilt of the device, likewise. Turning about the optical axis moves 'down' by only cos(pitch) per
-    /// radian, so the roll is uncertain by this over cos(pitch).
+    /// Sideways tilt of the device, likewise. A turn about the optical axis moves 'down' by only cos(pitch) per radian, so the
+    /// uncertainty of the roll is this over cos(pitch).
     pub tilt_rad: f64,
     /// Angle of the camera on the device.
     pub mount_rad: f64,
-    /// Scale of the range, relative.
+    /// Scale of the range, as a share of the range.
     pub range_relative: f64,
     /// Offset of the range.
     pub range_offset_mm: f64,
-    /// Focal length, relative; both axes together.
+    /// Focal length, as a share of it, of both axes together.
     pub focal_relative: f64,
     /// Each coordinate of the principal point.
     pub principal_px: f64,
-    /// The lens at the corner of the picture.
+    /// Displacement by the lens at the corner of the picture.
     pub distortion_px: f64,
-    /// Pitch and tilt of one picture, about those of its session: what motion leaves in gravity.
+    /// Pitch and tilt of one picture about those of its session, from the motion that remains in the estimate of gravity.
     pub turn_noise_rad: f64,
-    /// Range of one picture, about that of its session: what noise leaves in the median.
+    /// Range of one picture about that of its session, from the noise that remains in the median of the readings.
     pub range_noise_mm: f64,
-    /// One coordinate of one marked point.
+    /// Each coordinate of one marked point.
     pub mark_px: f64,
-    /// Covariance of [`LEARNED`] sources from a calibration, in place of their uncertainties above.
+    /// Covariance of the [`LEARNED`] sources from a calibration, which replaces their uncertainties above.
     pub learned: Option<Matrix4<f64>>,
 }
 
 impl Default for InputSigma {
-    /// What `[uncertainty]` of a study has when it says nothing; docs/uncertainty.md tells where each number is from.
+    /// The uncertainties of a study that states none in `[uncertainty]`. docs/uncertainty.md gives the origin of each number.
     fn default() -> Self {
         Self {
             pitch_rad: 1.0_f64.to_radians(), // 17 mg; ADXL362 data sheet: zero-g offset of tens of mg
             tilt_rad: 1.0_f64.to_radians(),  // likewise
             mount_rad: 0.5_f64.to_radians(), // assembly of housing and glasses
             range_relative: 0.03,            // VL53L0X: about 3 % uncalibrated
-            range_offset_mm: 3.0,            // VL53L0X: what is left of the offset behind a cover
+            range_offset_mm: 3.0,            // VL53L0X: the rest of the offset behind a cover
             focal_relative: 0.005,           // scatter of board calibrations
             principal_px: 5.0,               // likewise
             distortion_px: 2.0,              // residual of a one-parameter lens model at the corner
@@ -60,11 +60,11 @@ impl Default for InputSigma {
     }
 }
 
-/// The sources that a bench with known sizes can teach about, in the order of [`InputSigma::learned`].
+/// The sources that can be calibrated on a bench with known sizes, in the order of [`InputSigma::learned`].
 pub const LEARNED: [Source; 4] = [Source::Mount, Source::RangeScale, Source::RangeOffset, Source::Focal];
 
 impl InputSigma {
-    /// No uncertainty at all: to start from, in tests and where only some sources matter.
+    /// No uncertainty at all, to start from in tests and where only some sources matter.
     pub const NONE: Self = Self {
         pitch_rad: 0.0,
         tilt_rad: 0.0,
@@ -80,7 +80,7 @@ impl InputSigma {
         learned: None,
     };
 
-    /// Standard uncertainty of one source, without what a calibration says.
+    /// The standard uncertainty of one source, in its own unit, without the covariance from a calibration.
     #[must_use]
     pub fn sigma_of(&self, source: Source) -> f64 {
         match source {
@@ -95,7 +95,7 @@ impl InputSigma {
         }
     }
 
-    /// Covariance of what all pictures of a session share.
+    /// The covariance of the sources, which all pictures of a session share.
     #[must_use]
     pub fn common(&self) -> SourceCovariance {
         let mut covariance = SourceCovariance::zeros();
@@ -112,36 +112,36 @@ impl InputSigma {
         covariance
     }
 
-    /// Variances of what a picture has of its own, by pitch, tilt and range offset.
+    /// The variances of pitch, tilt and range that are one picture's own, in rad^2, rad^2 and mm^2.
     #[must_use]
     pub fn noise(&self) -> Vector3<f64> {
         Vector3::new(self.turn_noise_rad, self.turn_noise_rad, self.range_noise_mm).map(|s| s * s)
     }
 }
 
-/// Sources whose noise a picture has of its own, in the order of [`InputSigma::noise`].
+/// The sources that have noise of their own in each picture, in the order of [`InputSigma::noise`].
 pub(crate) const NOISY: [Source; 3] = [Source::Pitch, Source::Tilt, Source::RangeOffset];
 
-/// What a size changes by.
+/// The derivatives of a size by everything that it depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensitivity {
-    /// Derivatives by the sources.
+    /// Derivatives by the sources, in mm per the source's unit.
     pub by_source: PerSource,
-    /// SD per pixel of SD of each marked coordinate.
+    /// SD of the size per pixel of SD of each marked coordinate.
     pub marks_mm_per_px: f64,
 }
 
 impl Sensitivity {
-    /// Its derivatives by what [`InputSigma::noise`] is about.
+    /// The derivatives by pitch, tilt and range offset, in the order of [`InputSigma::noise`].
     #[must_use]
     pub fn by_noise(&self) -> Vector3<f64> {
         Vector3::from(NOISY.map(|source| self.by_source[source.index()]))
     }
 
-    /// What these inputs make of it.
+    /// The standard uncertainty of the size that follows from those of the inputs.
     #[must_use]
     pub fn sigma(&self, inputs: &InputSigma) -> SizeSigma {
-        SizeSigma::of_parts(
+        SizeSigma::from_parts(
             &self.by_source,
             &inputs.common(),
             self.by_noise().map(|d| d * d).component_mul(&inputs.noise()),
@@ -150,38 +150,39 @@ impl Sensitivity {
     }
 }
 
-/// Standard uncertainty of a size, by source.
+/// The standard uncertainty of a size (k = 1), in total and by source.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SizeSigma {
-    /// All of it.
+    /// The total.
     pub total_mm: f64,
-    /// What does not shrink with the number of pictures: the part from what a session's pictures share.
+    /// The part from errors that all pictures of a session share, which does not shrink with their number.
     pub common_mm: f64,
-    /// From the pitch of the device.
+    /// The part from the pitch of the device.
     pub pitch_mm: f64,
-    /// From its roll; for [`Method::Paper`] about its assumption of zero roll.
+    /// The part from its roll; for [`Method::Paper`] about the zero roll that it assumes.
     pub roll_mm: f64,
-    /// From the angle of the camera on the device.
+    /// The part from the angle of the camera on the device.
     pub mount_mm: f64,
-    /// From the range.
+    /// The part from the range.
     pub range_mm: f64,
-    /// From the marks.
+    /// The part from the marks.
     pub marks_mm: f64,
-    /// From focal length, principal point and lens.
+    /// The part from focal length, principal point and lens.
     pub camera_mm: f64,
 }
 
 impl SizeSigma {
-    /// With another part from the marks, which is independent of the others.
+    /// This uncertainty with another part from the marks, which is independent of the other parts.
     #[must_use]
     pub fn with_marks(self, marks_mm: f64) -> Self {
         let others = (self.total_mm.powi(2) - self.marks_mm.powi(2)).max(0.0);
         Self { marks_mm, total_mm: (others + marks_mm.powi(2)).sqrt(), ..self }
     }
 
-    /// From derivatives by the sources, their covariance, the variances that noise of pitch, tilt and range gives, and the
-    /// marks' part. With a learned covariance the parts are correlated, and the total is not their sum in quadrature.
-    pub(crate) fn of_parts(
+    /// The uncertainty from the derivatives by the sources, the sources' covariance, the variances (in mm^2) from the noise of
+    /// pitch, tilt and range, and the part from the marks. With a learned covariance the parts are correlated, and the total is
+    /// not their sum in quadrature.
+    pub(crate) fn from_parts(
         by_source: &PerSource,
         covariance: &SourceCovariance,
         noise: Vector3<f64>,
@@ -211,22 +212,23 @@ impl SizeSigma {
 /// A size with its uncertainty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
-    /// The method behind it.
+    /// The method that gave the size.
     pub method: Method,
     /// The size.
     pub measured: Measured,
-    /// What it changes by.
+    /// The derivatives of the size.
     pub sensitivity: Sensitivity,
-    /// Its uncertainty.
+    /// The standard uncertainty of the size.
     pub sigma: SizeSigma,
-    /// Radius of a round rim less that of its base, per height, where the method tells it.
+    /// Radius of a round rim less that of its base, per height, where the method gives it.
     pub wall_slope: Option<f64>,
-    /// Which of the method's assumptions may not hold; without any, the uncertainty is claimed to be all there is.
+    /// The assumptions of the method that may not hold. Without any, the uncertainty claims to be complete.
     pub doubts: Vec<Doubt>,
 }
 
-/// [`measure`](crate::measure()) with uncertainties: by the derivatives of every step, so that a rim plane's own uncertainty
-/// reaches the diameter measured on it, with all correlations through the common pose and the common marks.
+/// The sizes of [`measure`](crate::measure()) with their uncertainties. These follow from the derivatives of every step, so
+/// the uncertainty of a measured rim plane reaches the diameter that is measured on it, with all correlations through the
+/// common pose and the common marks.
 #[must_use]
 pub fn estimate(
     view: &View,
@@ -235,7 +237,7 @@ pub fn estimate(
     marks: &ObjectMarks,
     inputs: &InputSigma,
 ) -> Vec<(Quantity, Result<Estimate, MeasureError>)> {
-    let found = sizes(&view_of_method(view, method), method, container, marks);
+    let sizes_of_method = sizes(&view_of_method(view, method), method, container, marks);
     let exact = if method == Method::Paper { sizes(view, Method::Ray, container, marks) } else { Vec::new() };
     let slope = assumes_vertical_wall(method).then(|| wall_slope(view, container, marks)).flatten();
     let estimated = |size: Sized| {
@@ -250,18 +252,21 @@ pub fn estimate(
         doubts.extend(wall_doubt(method, container, quantity, slope));
         Estimate { method, measured: size.measured, sensitivity, sigma, wall_slope: size.wall_slope, doubts }
     };
-    found.into_iter().map(|(quantity, size)| (quantity, size.map(estimated))).collect()
+    sizes_of_method.into_iter().map(|(quantity, size)| (quantity, size.map(estimated))).collect()
 }
 
-/// A bias of this share of the standard uncertainty lowers the coverage of a 95 % interval by 1 percentage point.
+/// A bias below this share of the standard uncertainty is negligible: it lowers the coverage of a 95 % interval by no more than
+/// 1 percentage point.
 const NEGLIGIBLE: f64 = 0.3;
+
+/// The size of one quantity; `None` where it was not measured.
 fn size_mm(sizes: &[(Quantity, Result<Sized, MeasureError>)], wanted: Quantity) -> Option<f64> {
     let (_, size) = sizes.iter().find(|(quantity, _)| *quantity == wanted)?;
     Some(size.as_ref().ok()?.measured.predicted_mm)
 }
 
-/// The estimate for `method = "best"`: of those without doubts the one with the smallest uncertainty; where all have
-/// doubts, the one with the fewest, and of those the smallest uncertainty. None of none.
+/// The estimate for `method = "best"`: the one with the fewest doubts, and among several of those the one with the smallest
+/// uncertainty. `None` when there are no estimates.
 #[must_use]
 pub fn best_of<'a>(estimates: impl IntoIterator<Item = &'a Estimate>) -> Option<&'a Estimate> {
     estimates

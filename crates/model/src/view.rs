@@ -1,4 +1,4 @@
-//! A camera at a pose: between pixels and points on level planes.
+//! A camera at a pose, which maps pixels to points on level planes and back.
 
 use nalgebra::{Point2, Point3, Vector3};
 
@@ -6,7 +6,7 @@ use crate::camera::Camera;
 use crate::lens::LensError;
 use crate::pose::Pose;
 
-/// One picture's geometry: the exact form of the paper's chain (9)-(13), with roll and any lens.
+/// The geometry of one picture: the exact form of the paper's chain (9)-(13), with roll and with any lens.
 ///
 /// In the paper's own frame the origin is where the perpendicular to the optical axis through the camera meets the table,
 /// at h = range tan(pitch) (Eq. 10); here it is the point under the camera. Distances on the plane are the same.
@@ -16,10 +16,10 @@ pub struct View {
     pose: Pose,
 }
 
-/// Why a pixel has no point on a plane, or a point no pixel.
+/// The reason why a pixel has no point on a plane, or a point has no pixel.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ViewError {
-    /// The lens has no answer.
+    /// The lens model has no answer for the point.
     #[error(transparent)]
     Lens(#[from] LensError),
     /// The ray through the pixel runs level or upwards.
@@ -35,15 +35,15 @@ pub enum ViewError {
         "the plane Z = {plane_z_mm:.1} mm is not below the camera, which is {camera_height_mm:.1} mm above the table"
     )]
     PlaneNotBelowCamera {
-        /// Height of the plane.
+        /// Height of the plane above the table.
         plane_z_mm: f64,
-        /// Height of the camera.
+        /// Height of the camera above the table.
         camera_height_mm: f64,
     },
 }
 
 impl View {
-    /// A camera at a pose.
+    /// The view of `camera` at `pose`.
     #[must_use]
     pub fn new(camera: Camera, pose: Pose) -> Self {
         Self { camera, pose }
@@ -61,9 +61,9 @@ impl View {
         &self.pose
     }
 
-    /// World X and Y in mm of what `pixel` shows, if it lies at height `plane_z_mm` above the table.
+    /// World X and Y, in mm, of the point that `pixel` shows if it lies at the height `plane_z_mm` above the table.
     ///
-    /// Eq. (11)-(13), with the plane Z = H of Eq. (15) as the table seen from a camera lower by H.
+    /// These are Eq. (11)-(13). The plane Z = H of Eq. (15) is the table as seen from a camera that stands lower by H.
     ///
     /// # Errors
     /// [`ViewError`] when the lens shows nothing there, the ray does not descend, or the plane is not below the camera.
@@ -74,14 +74,14 @@ impl View {
         }
         let ray_in_world = self.pose.world_from_camera() * self.camera.ray_through(pixel)?;
         let on_plane_mm = Point2::from(ray_in_world.xy() * ((camera_height_mm - plane_z_mm) / -ray_in_world.z));
-        // A ray that is level but for rounding overflows.
+        // The point overflows for a ray that is level within rounding.
         if ray_in_world.z >= 0.0 || !on_plane_mm.iter().all(|c| c.is_finite()) {
             return Err(ViewError::AboveHorizon { x: pixel.x, y: pixel.y });
         }
         Ok(on_plane_mm)
     }
 
-    /// The pixel that shows a point of the world frame, in mm. It may lie outside the picture.
+    /// The pixel that shows a point of the world frame, given in mm. It may lie outside the picture.
     ///
     /// # Errors
     /// [`ViewError::Lens`] when the lens does not show that direction.

@@ -1,4 +1,4 @@
-//! Calibrations recover what a bench is off by, and refuse what it cannot tell.
+//! Calibrations recover the biases of a bench, and refuse those that its data do not determine.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use aim_batch_model::calibrate::empirical::{self, Row, ScaleError};
@@ -18,7 +18,7 @@ fn camera() -> Camera {
     Camera::new([2592, 1944], [1695.0, 1703.0], [1296.0, 972.0], 0.0, LensModel::None).unwrap()
 }
 
-/// What a device with these errors reads where the camera is at `pose`.
+/// The view by the readings of a device with these errors, whose camera is at `pose`.
 fn reading(pose: Pose, off: &Correction) -> View {
     let turn = Rotation3::from_axis_angle(&Vector3::x_axis(), -off.mount_rad);
     let (pitch, roll) = Pose::pitch_roll_of_down(&(turn * pose.down_in_camera())).unwrap();
@@ -26,7 +26,7 @@ fn reading(pose: Pose, off: &Correction) -> View {
     View::new(camera(), Pose::new(pitch, roll, range_mm).unwrap())
 }
 
-/// Plates in setups of three heights and four pitches, marked with errors of `mark_px`.
+/// Plates in setups of these heights and of four pitches, whose marks have errors of `mark_px`.
 fn bench(off: &Correction, mark_px: f64, heights_mm: &[f64]) -> Vec<BenchSize> {
     let mut random = ChaCha8Rng::seed_from_u64(11);
     let mut sizes = Vec::new();
@@ -64,42 +64,45 @@ fn bench(off: &Correction, mark_px: f64, heights_mm: &[f64]) -> Vec<BenchSize> {
 }
 
 #[test]
-fn what_a_bench_is_off_by_is_found() {
+fn the_biases_of_a_bench_are_recovered() {
     let prior = InputSigma { focal_relative: 0.0, ..InputSigma::default() };
-    let found = physical::calibrate(&bench(&OFF, 0.0, &[200.0, 350.0, 500.0]), &prior).unwrap();
-    assert_eq!(found.determined, [true, true, true, false], "the focal length is known beforehand");
-    let (got, expected) = (found.correction.values(), OFF.values());
+    let fitted = physical::calibrate(&bench(&OFF, 0.0, &[200.0, 350.0, 500.0]), &prior).unwrap();
+    assert_eq!(fitted.determined, [true, true, true, false], "the focal length is known beforehand");
+    let (got, expected) = (fitted.correction.values(), OFF.values());
     for (got, (expected, unit)) in got.into_iter().zip(expected.into_iter().zip([0.02, 0.03, 5.0, 0.01])) {
         assert!((got - expected).abs() < 1e-4 * unit, "{got} {expected}");
     }
-    assert!(found.without_object.before_rmse_pct > 1.0);
-    assert!(found.without_object.after_rmse_pct.unwrap() < 1e-3 && found.without_setup.after_rmse_pct.unwrap() < 1e-3);
+    assert!(fitted.without_object.before_rmse_pct > 1.0);
+    assert!(
+        fitted.without_object.after_rmse_pct.unwrap() < 1e-3 && fitted.without_setup.after_rmse_pct.unwrap() < 1e-3
+    );
 }
 
-/// With honest marks: within three of the stated SDs, and far better on what was left out; one bad size does little.
+/// With noisy marks the corrections lie within four of their SDs, sizes that were left out become far better, and one bad size
+/// changes little.
 #[test]
-fn noise_and_one_bad_size_are_borne() {
+fn noise_and_one_bad_size_do_little_harm() {
     let mut sizes = bench(&OFF, 2.0, &[200.0, 350.0, 500.0]);
     sizes[5].true_mm *= 1.6;
-    let found = physical::calibrate(&sizes, &InputSigma::default()).unwrap();
-    for i in (0..4).filter(|&i| found.determined[i]) {
-        let sd = found.sd[i].unwrap();
-        assert!(sd > 0.0 && (found.correction.values()[i] - OFF.values()[i]).abs() < 4.0 * sd, "{i}: {found:?}");
+    let fitted = physical::calibrate(&sizes, &InputSigma::default()).unwrap();
+    for i in (0..4).filter(|&i| fitted.determined[i]) {
+        let sd = fitted.sd[i].unwrap();
+        assert!(sd > 0.0 && (fitted.correction.values()[i] - OFF.values()[i]).abs() < 4.0 * sd, "{i}: {fitted:?}");
     }
-    assert!(found.determined[0] && found.determined[1]);
+    assert!(fitted.determined[0] && fitted.determined[1]);
     sizes.remove(5);
     let clean = physical::calibrate(&sizes, &InputSigma::default()).unwrap();
-    assert!((found.correction.mount_rad - clean.correction.mount_rad).abs() < 0.002);
+    assert!((fitted.correction.mount_rad - clean.correction.mount_rad).abs() < 0.002);
     assert!(clean.without_setup.after_rmse_pct.unwrap() < 0.5 * clean.without_setup.before_rmse_pct);
 }
 
-/// One height: scale and offset of the range look alike.
+/// At a single height, scale and offset of the range have the same effect.
 #[test]
 fn what_the_data_do_not_determine_is_refused() {
-    let found = physical::calibrate(&bench(&Correction::default(), 1.0, &[350.0]), &InputSigma::default()).unwrap();
-    assert!(!(found.determined[1] && found.determined[2]), "{found:?}");
-    for i in (0..4).filter(|&i| !found.determined[i]) {
-        assert!(found.correction.values()[i] == 0.0 && found.covariance[(i, i)] > 0.0, "what was known stays");
+    let fitted = physical::calibrate(&bench(&Correction::default(), 1.0, &[350.0]), &InputSigma::default()).unwrap();
+    assert!(!(fitted.determined[1] && fitted.determined[2]), "{fitted:?}");
+    for i in (0..4).filter(|&i| !fitted.determined[i]) {
+        assert!(fitted.correction.values()[i] == 0.0 && fitted.covariance[(i, i)] > 0.0, "what was known stays");
     }
     let few = bench(&OFF, 1.0, &[350.0]);
     let refused = physical::calibrate(&few[..5], &InputSigma::default());
@@ -117,7 +120,7 @@ fn row(object: &str, pitch_deg: f64, factor: f64) -> Row {
 }
 
 #[test]
-fn a_line_in_the_tangent_is_found_and_a_slip_is_named() {
+fn a_line_in_the_tangent_is_fitted_and_a_slip_is_named() {
     let mut rows: Vec<Row> = ["a", "b", "c"]
         .into_iter()
         .flat_map(|object| {
@@ -126,10 +129,10 @@ fn a_line_in_the_tangent_is_found_and_a_slip_is_named() {
         })
         .collect();
     rows[7].predicted_mm /= 10.0;
-    let found = empirical::calibrate(&rows).unwrap();
-    assert!((found.scale.a - 0.9).abs() < 0.01 && (found.scale.b - 0.1).abs() < 0.01, "{:?}", found.scale);
-    assert_eq!(found.slips, [empirical::Slip { row: 7, factor: 10.0 }]);
-    let mended = empirical::calibrate(&empirical::mended(&rows, &found.slips)).unwrap();
+    let fitted = empirical::calibrate(&rows).unwrap();
+    assert!((fitted.scale.a - 0.9).abs() < 0.01 && (fitted.scale.b - 0.1).abs() < 0.01, "{:?}", fitted.scale);
+    assert_eq!(fitted.slips, [empirical::Slip { row: 7, factor: 10.0 }]);
+    let mended = empirical::calibrate(&empirical::mended(&rows, &fitted.slips)).unwrap();
     assert!(mended.slips.is_empty() && mended.without_object.after_rmse_pct.unwrap() < 0.2);
     assert_eq!(mended.without_object.folds, 3);
 }
@@ -143,12 +146,13 @@ fn one_pitch_has_no_trend() {
 
 #[test]
 fn angles_against_a_protractor() {
-    let found = protractor(&[(30.0, 31.0), (45.0, 46.3), (60.0, 61.0), (75.0, 76.1)]).unwrap();
-    assert!((found.slope - 1.0).abs() < 0.01 && (found.mean_difference - 1.1).abs() < 1e-12, "{found:?}");
+    let line = protractor(&[(30.0, 31.0), (45.0, 46.3), (60.0, 61.0), (75.0, 76.1)]).unwrap();
+    assert!((line.slope - 1.0).abs() < 0.01 && (line.mean_difference - 1.1).abs() < 1e-12, "{line:?}");
     assert!(protractor(&[(30.0, 31.0), (30.0, 32.0), (30.0, 30.0)]).is_none());
 }
 
-/// The paper's Tables II to IV: error of objects that were left out, as the study of the published bench ships them.
+/// The errors of objects that were left out, for the paper's Tables II to IV as they ship with the study of the published
+/// bench.
 #[test]
 fn published_rows() {
     let read = |table: &str| -> Vec<Row> {
@@ -171,10 +175,10 @@ fn published_rows() {
     };
     let left_out = |rows: &[Row]| empirical::calibrate(rows).unwrap().without_object;
     for (table, n, before, after) in [("II", 45, 5.25, 4.24), ("IV", 27, 8.08, 5.29), ("III", 27, 37.5, 28.6)] {
-        let found = left_out(&read(table));
-        assert_eq!(found.n, n);
-        assert!((found.before_rmse_pct - before).abs() < 0.02, "{table}: {found:?}");
-        assert!(found.after_rmse_pct.unwrap() < after + 0.005, "{table}: {found:?}");
+        let errors = left_out(&read(table));
+        assert_eq!(errors.n, n);
+        assert!((errors.before_rmse_pct - before).abs() < 0.02, "{table}: {errors:?}");
+        assert!(errors.after_rmse_pct.unwrap() < after + 0.005, "{table}: {errors:?}");
     }
     let heights = read("III");
     let slips = empirical::calibrate(&heights).unwrap().slips;

@@ -1,4 +1,4 @@
-//! Analytic derivatives of every size by every source, against central differences through the whole chain.
+//! Analytic derivatives of every size by every source, compared with central differences through the whole chain.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use aim_batch_model::lens::{Division, Fisheye, PlumbBob, Radial};
@@ -30,28 +30,28 @@ impl Case {
         sizes.into_iter().find(|(quantity, _)| *quantity == wanted).unwrap().1.unwrap().predicted_mm
     }
 
-    /// The same case with one source off by `step`.
+    /// The size of the same case with one source off by `step`.
     fn moved(&self, source: Source, step: f64, wanted: Quantity) -> f64 {
-        let (w, p, d) = (self.pose.pitch_rad(), self.pose.roll_rad(), self.pose.range_mm());
-        // The paper's method has no roll to turn about: it is turned about none.
-        let p_used = if self.method == Method::Paper { 0.0 } else { p };
-        let turned = |pitch: f64, roll: f64| Pose::new(pitch, roll, d).unwrap();
+        let (pitch_rad, roll_rad, range_mm) = (self.pose.pitch_rad(), self.pose.roll_rad(), self.pose.range_mm());
+        // The paper's method takes the roll as zero, so the mount is turned there.
+        let used_roll_rad = if self.method == Method::Paper { 0.0 } else { roll_rad };
+        let turned = |pitch_rad: f64, roll_rad: f64| Pose::new(pitch_rad, roll_rad, range_mm).unwrap();
         let (camera, mut marks) = (self.camera, self.marks.clone());
         let ([fx, fy], [cx, cy], size) = (camera.focal_px(), camera.principal_px(), camera.size_px());
         let with = |focal: [f64; 2], principal: [f64; 2]| {
             Camera::new(size, focal, principal, camera.skew_px(), *camera.lens()).unwrap()
         };
         let (camera, pose) = match source {
-            Source::Pitch => (camera, turned(w + step, p)),
-            Source::Tilt => (camera, turned(w, p + step / w.cos())),
+            Source::Pitch => (camera, turned(pitch_rad + step, roll_rad)),
+            Source::Tilt => (camera, turned(pitch_rad, roll_rad + step / pitch_rad.cos())),
             Source::Mount => {
-                let down = Pose::new(w, p_used, d).unwrap().down_in_camera();
+                let down = turned(pitch_rad, used_roll_rad).down_in_camera();
                 let down = Rotation3::from_axis_angle(&Vector3::x_axis(), step) * down;
                 let (pitch, roll) = Pose::pitch_roll_of_down(&down).unwrap();
                 (camera, turned(pitch, roll))
             }
-            Source::RangeScale => (camera, Pose::new(w, p, d * (1.0 + step)).unwrap()),
-            Source::RangeOffset => (camera, Pose::new(w, p, d + step).unwrap()),
+            Source::RangeScale => (camera, Pose::new(pitch_rad, roll_rad, range_mm * (1.0 + step)).unwrap()),
+            Source::RangeOffset => (camera, Pose::new(pitch_rad, roll_rad, range_mm + step).unwrap()),
             Source::Focal => (with([fx * (1.0 + step), fy * (1.0 + step)], [cx, cy]), self.pose),
             Source::PrincipalX => (with([fx, fy], [cx + step, cy]), self.pose),
             Source::PrincipalY => (with([fx, fy], [cx, cy + step]), self.pose),
@@ -70,12 +70,12 @@ impl Case {
 
     fn check(&self) {
         let view = View::new(self.camera, self.pose);
-        let found = estimate(&view, self.method, &self.container, &self.marks, &InputSigma::NONE);
-        assert!(!found.is_empty());
-        for (quantity, estimated) in found {
+        let estimates = estimate(&view, self.method, &self.container, &self.marks, &InputSigma::NONE);
+        assert!(!estimates.is_empty());
+        for (quantity, estimated) in estimates {
             let estimated = estimated.unwrap();
             for source in Source::ALL {
-                // The tilt of a method that leaves out the roll is about zero roll, where sizes of a bench scene lie flat.
+                // A method that leaves out the roll has its derivative by the tilt at zero roll, not at the roll of this case.
                 if self.method == Method::Paper && *source == Source::Tilt {
                     continue;
                 }
@@ -179,14 +179,14 @@ fn every_method_shape_and_pose() {
             (Kind::Box, Shape::Square),
         ] {
             case(LENSES[1], Method::Ray, pitch_deg, roll_deg, container(kind, shape)).check();
-            // With roll the marks of a bench scene are not where the paper's equations have them; without, they are.
+            // The paper's equations leave out the roll, so they fit the marks only where there is none.
             case(LENSES[1], Method::Paper, pitch_deg, 0.0, container(kind, shape)).check();
         }
         case(LENSES[3], Method::Coaxial, pitch_deg, roll_deg, container(Kind::Bowl, Shape::Circle)).check();
     }
 }
 
-/// A rim plane known beforehand has no error.
+/// A rim plane that is known beforehand has no error.
 #[test]
 fn a_known_rim_plane() {
     let known = Container { rim_height_mm: Some(60.0), ..container(Kind::Bowl, Shape::Circle) };

@@ -1,4 +1,4 @@
-//! The flow of images, against counting image by image.
+//! The flow of images, compared with a count image by image.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use aim_batch_model::{Flow, FlowStep, FrameReason, FrameRow, StudyFlow};
@@ -11,7 +11,7 @@ fn frame(session: &str, reason: FrameReason, raters: u32, sizes: u32) -> FrameRo
 fn frames() -> impl Strategy<Value = Vec<FrameRow>> {
     let session = proptest::sample::select(vec!["a", "b", "c"]);
     let reason = proptest::sample::select(FrameReason::ALL.to_vec());
-    // Half of them selected: the end of the funnel is of interest.
+    // About half of the images are selected, so that the last steps of the flow are tested as well.
     let reason = prop_oneof![reason, Just(FrameReason::Selected)];
     let row = (session, reason, 0..3_u32, 0..3_u32)
         .prop_map(|(session, reason, raters, sizes)| frame(session, reason, raters, sizes));
@@ -24,7 +24,7 @@ fn study(frames: &[FrameRow]) -> StudyFlow {
     study
 }
 
-/// What a step means, said of one image.
+/// Whether one image reaches a step, by the meaning of the step.
 fn reaches(frame: &FrameRow, step: FlowStep) -> bool {
     use FrameReason::{Moving, PitchOutsideTarget, Selected, TimesDisagree};
     let selected = frame.reason == Selected;

@@ -1,4 +1,4 @@
-//! Fused sizes: what is common stays, what is not averages out, what is off is named.
+//! Fused sizes: common errors stay, others average out, and outliers are named.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use aim_batch_model::{
@@ -42,7 +42,7 @@ fn what_is_common_does_not_shrink() {
     assert_eq!((one.spread_mm, one.consistency), (None, None));
 }
 
-/// Two raters of one picture share its noise; two pictures do not.
+/// Two raters of one picture share the noise of the picture, while two pictures do not.
 #[test]
 fn raters_of_one_picture_share_its_noise() {
     let one_picture = fuse(&[share(200.0, 0), share(200.0, 0)]).unwrap();
@@ -55,10 +55,10 @@ fn raters_of_one_picture_share_its_noise() {
 
 #[test]
 fn one_that_is_off_is_named_and_counts_less() {
-    let found = fused(&[200.0, 201.0, 199.0, 200.5, 140.0]);
-    assert_eq!(found.outliers, [4]);
-    assert!(found.weights[4] < 0.05 && (found.value_mm - 200.0).abs() < 2.0, "{found:?}");
-    assert_eq!(found.consistency.unwrap().verdict, Verdict::Inconsistent);
+    let result = fused(&[200.0, 201.0, 199.0, 200.5, 140.0]);
+    assert_eq!(result.outliers, [4]);
+    assert!(result.weights[4] < 0.05 && (result.value_mm - 200.0).abs() < 2.0, "{result:?}");
+    assert_eq!(result.consistency.unwrap().verdict, Verdict::Inconsistent);
     let fine = fused(&[200.0, 201.0, 199.0, 200.5, 198.0]);
     assert_eq!((fine.outliers.len(), fine.consistency.unwrap().verdict), (0, Verdict::Consistent));
 }
@@ -66,11 +66,12 @@ fn one_that_is_off_is_named_and_counts_less() {
 #[test]
 fn a_doubtful_picture_counts_less() {
     let shares = [share(200.0, 0), Share { penalty: 4.0, ..share(210.0, 1) }];
-    let found = fuse(&shares).unwrap();
-    assert!((found.weights[0] / found.weights[1] - 4.0).abs() < 1e-9 && (found.value_mm - 202.0).abs() < 1e-9);
+    let result = fuse(&shares).unwrap();
+    assert!((result.weights[0] / result.weights[1] - 4.0).abs() < 1e-9 && (result.value_mm - 202.0).abs() < 1e-9);
 }
 
-/// Sizes drawn with common and own errors: the stated uncertainty covers, and the verdict is wrong as often as it says.
+/// The sizes are drawn with common errors and with errors of their own. The stated uncertainty covers them, and the verdict is
+/// wrong as often as it claims.
 #[test]
 fn intervals_cover_and_verdicts_hold() {
     let mut random = ChaCha8Rng::seed_from_u64(3);
@@ -84,9 +85,9 @@ fn intervals_cover_and_verdicts_hold() {
                 share(200.0 + 150.0 * pitch + 200.0 * scale + 0.4 * draw(4.0) + 0.8 * draw(2.0), i)
             })
             .collect();
-        let found = fuse(&shares).unwrap();
-        covered += u32::from((found.value_mm - 200.0).abs() < 1.96 * found.sigma.total_mm);
-        inconsistent += u32::from(found.consistency.unwrap().verdict == Verdict::Inconsistent);
+        let result = fuse(&shares).unwrap();
+        covered += u32::from((result.value_mm - 200.0).abs() < 1.96 * result.sigma.total_mm);
+        inconsistent += u32::from(result.consistency.unwrap().verdict == Verdict::Inconsistent);
     }
     let share_of = |n: u32| f64::from(n) / f64::from(runs);
     assert!((0.94..0.96).contains(&share_of(covered)), "{}", share_of(covered));
@@ -98,7 +99,7 @@ fn view(pitch_deg: f64) -> View {
     View::new(camera, Pose::new(pitch_deg.to_radians(), 0.05, 560.0).unwrap())
 }
 
-/// A wall 60 mm high that leans outwards by 24 mm, its far side.
+/// The far side of a wall that is 60 mm high and leans outwards by 24 mm.
 fn sight(view: &View) -> Vec<Sight> {
     let end = |y: f64, z: f64| view.pixel_of(Point3::new(0.0, y, z)).unwrap();
     let distance = 560.0 * view.pose().pitch_rad().cos();
@@ -109,9 +110,9 @@ fn sight(view: &View) -> Vec<Sight> {
 #[test]
 fn height_and_slope_together() {
     let pictures: Vec<_> = [40.0, 55.0, 70.0].map(|pitch| (sight(&view(pitch)), INPUTS)).to_vec();
-    let found = joint_height(&pictures).unwrap();
-    assert!((found.height_mm - 60.0).abs() < 1e-6 && (found.overhang_mm - 24.0).abs() < 1e-6, "{found:?}");
-    assert!(found.sigma.total_mm > 1.0 && found.sigma.total_mm < 20.0);
+    let joint = joint_height(&pictures).unwrap();
+    assert!((joint.height_mm - 60.0).abs() < 1e-6 && (joint.overhang_mm - 24.0).abs() < 1e-6, "{joint:?}");
+    assert!(joint.sigma.total_mm > 1.0 && joint.sigma.total_mm < 20.0);
 }
 
 #[test]
@@ -133,7 +134,7 @@ fn the_best_is_the_surest_of_those_that_apply() {
     let paper = candidate(Method::Paper, 1.0, vec![Doubt::PaperApproximation, Doubt::WallSloped]);
     let ray = candidate(Method::Ray, 2.0, vec![Doubt::WallSloped]);
     let coaxial = candidate(Method::Coaxial, 3.0, vec![]);
-    let best = |of: &[&Estimate]| best_of(of.iter().copied()).map(|estimate| estimate.method);
+    let best = |estimates: &[&Estimate]| best_of(estimates.iter().copied()).map(|estimate| estimate.method);
     assert_eq!(best(&[&paper, &ray, &coaxial]), Some(Method::Coaxial));
     assert_eq!(best(&[&paper, &ray]), Some(Method::Ray), "where all have doubts, the fewest");
     assert_eq!(best(&[]), None);

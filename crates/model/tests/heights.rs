@@ -1,4 +1,5 @@
-//! Wall heights, and `measure` on synthetic marks: what is exact, what is biased and by how much, what is refused.
+//! Wall heights, and `measure` on synthetic marks: which sizes are exact, which are biased and by how much, and which marks are
+//! refused.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
@@ -20,12 +21,12 @@ fn view(pitch_deg: f64, roll_deg: f64, range_mm: f64) -> View {
     View::new(aim2_camera(LensModel::None), pose)
 }
 
-/// Where the picture shows a point of the world.
+/// The pixel that shows a point of the world.
 fn seen(view: &View, x_mm: f64, y_mm: f64, z_mm: f64) -> Point2<f64> {
     view.pixel_of(Point3::new(x_mm, y_mm, z_mm)).unwrap()
 }
 
-/// Pixels of `n` points around a circle of diameter 150 mm at height `z_mm`.
+/// The pixels of `n` points around a circle with a diameter of 150 mm, at the height `z_mm`.
 fn circle_px(view: &View, n: u32, z_mm: f64) -> Vec<Point2<f64>> {
     (0..n)
         .map(|i| {
@@ -35,7 +36,7 @@ fn circle_px(view: &View, n: u32, z_mm: f64) -> Vec<Point2<f64>> {
         .collect()
 }
 
-/// Pixels of the corners of a rectangle of 120 x 200 mm, turned by 25 degrees.
+/// The pixels of the corners of a rectangle that is turned by 25 degrees, at the height `z_mm`.
 fn corners_px(view: &View, width_mm: f64, length_mm: f64, z_mm: f64) -> Vec<Point2<f64>> {
     let (sin, cos) = 25_f64.to_radians().sin_cos();
     [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]
@@ -76,7 +77,7 @@ fn assert_sizes(got: &[(Quantity, Result<Measured, MeasureError>)], expected_mm:
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
-    /// A vertical wall anywhere in front of the camera, at any pitch and roll.
+    /// The wall may stand anywhere in front of the camera, at any pitch and roll.
     #[test]
     fn the_ray_height_of_a_vertical_wall_is_exact(
         pitch_rad in 0.1..FRAC_PI_2,
@@ -98,7 +99,8 @@ proptest! {
         prop_assert!((got_mm - height_mm).abs() < 1e-8 * c_mm, "{got_mm} mm, true {height_mm} mm");
     }
 
-    /// Eq. (14) uses the axis' depression for the rim's ray: it is off by the ratio of the two tangents.
+    /// Eq. (14) takes the depression of the axis for that of the ray to the rim, so it is wrong by the ratio of the two
+    /// tangents.
     #[test]
     fn the_paper_height_is_off_by_the_ratio_of_tangents(
         pitch_deg in 20.0..80.0,
@@ -109,7 +111,7 @@ proptest! {
         let view = view(pitch_deg, 0.0, range_mm);
         let c_mm = view.pose().camera_height_mm();
         let height_mm = share * c_mm;
-        // The wall whose rim is seen at that depression.
+        // The wall stands where its rim is seen at that depression.
         let y_mm = (c_mm - height_mm) / f64::to_radians(depression_deg).tan();
         let (foot_px, rim_px) = (seen(&view, 0.0, y_mm, 0.0), seen(&view, 0.0, y_mm, height_mm));
         let ratio = f64::to_radians(pitch_deg).tan() / f64::to_radians(depression_deg).tan();
@@ -201,8 +203,8 @@ fn a_circle_without_noise_is_exact() {
     }
 }
 
-/// Marks off by 2 px (1 SD, both ways): 24 of them, at 0.4 mm per pixel, fix the diameter to about
-/// 2 * 2 px * 0.4 mm/px / sqrt(24) = 0.33 mm.
+/// The marks have errors of 2 px (1 SD, in both coordinates). At 0.4 mm per pixel, 24 marks give the diameter with an SD of
+/// about 2 * 2 px * 0.4 mm/px / sqrt(24) = 0.33 mm.
 #[test]
 fn noisy_marks_give_the_diameter_without_bias() {
     let view = view(55.0, 5.0, 600.0);
@@ -250,7 +252,7 @@ fn what_cannot_be_measured_says_why() {
     assert!(matches!(plate(vec![in_the_sky]), MeasureError::View(ViewError::AboveHorizon { .. })));
 }
 
-/// One bad quantity does not take the others with it.
+/// A quantity that cannot be measured does not spoil the others.
 #[test]
 fn a_height_survives_a_mouth_that_cannot_be_measured() {
     let view = view(55.0, 0.0, 580.0);

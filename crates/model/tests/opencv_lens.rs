@@ -1,5 +1,5 @@
-//! The lens models `plumb_bob` and `fisheye` against OpenCV (`vectors/opencv_lens.csv`, made by the script beside it), and
-//! `division` against numbers worked out by hand.
+//! The lens models `plumb_bob` and `fisheye`, compared with OpenCV (`vectors/opencv_lens.csv`, made by the script beside
+//! it), and `division`, compared with numbers that were computed by hand.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use aim_batch_model::LensModel;
@@ -42,7 +42,7 @@ fn vectors() -> Vec<Vector> {
     vectors
 }
 
-/// Distance of two points, relative to the size of the second where that is above 1.
+/// The distance of two points, as a share of the second one's distance from the origin where that is above 1.
 fn relative_error(got: Point2<f64>, expected: Point2<f64>) -> f64 {
     (got - expected).norm() / expected.coords.norm().max(1.0)
 }
@@ -65,7 +65,7 @@ fn image_points_of_opencv_give_the_rays_back() {
     }
 }
 
-/// lambda, distorted radius, ideal radius = `r_d` / (1 + lambda `r_d`^2).
+/// Each row holds lambda, the distorted radius `r_d` and the ideal radius `r_d` / (1 + lambda `r_d`^2).
 const DIVISION_BY_HAND: [(f64, f64, f64); 5] = [
     (-0.25, 1.0, 4.0 / 3.0),   // 1 / 0.75
     (-0.16, 2.0, 50.0 / 9.0),  // 2 / 0.36: a ray 79.8 degrees from the axis

@@ -1,8 +1,9 @@
-//! The paper's equations (8)-(15), written out as printed, as an oracle for the exact form in `View`.
+//! The paper's equations (8)-(15), written out as printed, with which the exact form in `View` is compared.
 //!
-//! Readings that the chain needs to be consistent: theta = 90 degrees - pitch (the only one in which the axis point lies at depth d),
-//! also in Eq. (8); v points up; the '+' of Eq. (9) is a product. The paper's origin then lies where the perpendicular to
-//! the optical axis through the camera meets the table, h sin(pitch) nearer the wearer than the point under the camera.
+//! The chain is consistent only when it is read as follows: theta = 90 degrees - pitch, in Eq. (8) as well (for no other angle
+//! does the axis point lie at the depth of the range); v points up; the '+' of Eq. (9) is a product. The paper's origin then
+//! lies where the perpendicular to the optical axis through the camera meets the table, h sin(pitch) nearer to the wearer than
+//! the point under the camera.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
@@ -14,14 +15,15 @@ use common::aim2_camera;
 use nalgebra::{Matrix3, Point2, Vector3};
 use proptest::prelude::*;
 
-/// Table I.
+/// The camera of the paper's Table I.
 const FOCAL_MM: f64 = 2.4;
 const SCALE_PX_PER_MM: [f64; 2] = [2592.0 / 3.67, 1944.0 / 2.74];
 const CENTER_PX: [f64; 2] = [1296.0, 972.0];
 
+/// The paper's chain from a pixel to a point on the plane of the table or of a rim.
 struct PaperChain {
     pitch_rad: f64,
-    /// h of Eq. (10), or h' of Eq. (15).
+    /// h of Eq. (10) for the table, or h' of Eq. (15) for a rim.
     h_mm: f64,
 }
 
@@ -34,7 +36,7 @@ impl PaperChain {
         Self { pitch_rad: self.pitch_rad, h_mm: self.h_mm - height_mm / self.pitch_rad.cos() } // Eq. (15)
     }
 
-    /// X, Y and Z in the paper's world; Z must come out as zero.
+    /// X, Y and Z in the paper's world. Z must be zero but for rounding.
     fn world_mm(&self, pixel: Point2<f64>) -> Vector3<f64> {
         let u = (pixel.x - CENTER_PX[0]) / SCALE_PX_PER_MM[0]; // Eq. (9)
         let v = -(pixel.y - CENTER_PX[1]) / SCALE_PX_PER_MM[1]; // Eq. (9), v up
@@ -57,7 +59,7 @@ fn agree(chain: &PaperChain, view: &View, plane_z_mm: f64, pixels: [Point2<f64>;
     let [ours_a, ours_b] = pixels.map(|p| view.on_plane(p, plane_z_mm).unwrap());
     let difference_mm = (a - b).norm() - (ours_a - ours_b).norm();
     prop_assert!(difference_mm.abs() < 1e-6, "distances differ by {difference_mm:e} mm");
-    // The same points, not only the same distances, once the origin is moved.
+    // The points are the same as well, and not only their distances, once the origin is moved.
     let origin = Vector3::new(0.0, chain.h_mm * view.pose().pitch_rad().sin(), 0.0);
     prop_assert!((a - origin - ours_a.coords.push(0.0)).norm() < 1e-6);
     Ok(())

@@ -8,7 +8,7 @@ use aim_batch_model::{Camera, LensError, LensModel, Pose, View, ViewError};
 use nalgebra::{Point2, Rotation2, Vector3};
 use proptest::prelude::*;
 
-/// Every model, from mild to strong distortion of both signs.
+/// A lens of any model, with mild to strong distortion of both signs.
 fn lens() -> impl Strategy<Value = LensModel> {
     prop_oneof![
         Just(LensModel::None),
@@ -51,7 +51,8 @@ fn pixel() -> impl Strategy<Value = Point2<f64>> {
     [-200.0..2800.0, -200.0..2200.0].prop_map(Point2::from)
 }
 
-/// A point on a level plane, as a direction around the point under the camera and a distance in camera heights above it.
+/// A point on a level plane: its direction around the point under the camera, and its distance from that point in units of the
+/// camera's height above the plane.
 fn spot() -> impl Strategy<Value = (f64, f64)> {
     (-PI..PI, 0.01..4.0)
 }
@@ -74,7 +75,7 @@ proptest! {
         }
     }
 
-    /// A pixel that has a place on a plane is where that place is seen; a pixel that has none says so.
+    /// The place of a pixel on a plane is seen in that pixel, unless the pixel is refused.
     #[test]
     fn pixel_to_plane_to_pixel(view in view(), pixel in pixel(), share in -0.5..0.95) {
         let z_mm = share * view.pose().camera_height_mm();
@@ -84,7 +85,7 @@ proptest! {
         }
     }
 
-    /// A point that is seen in a pixel is where that pixel's ray meets its plane; a point that is not seen says so.
+    /// The pixel that shows a point has its place at that point, unless the point is refused.
     #[test]
     fn plane_to_pixel_to_plane(view in view(), spot in spot(), share in -0.5..0.95) {
         let z_mm = share * view.pose().camera_height_mm();
@@ -105,7 +106,7 @@ proptest! {
         }
     }
 
-    /// The world turns with the wearer: where two points lie around the camera does not change their distance.
+    /// The world turns with the wearer: a turn of two points about the camera does not change their distance.
     #[test]
     fn yaw_changes_no_distance(view in view(), spots in [spot(), spot()], yaw_rad in -PI..PI) {
         let c_mm = view.pose().camera_height_mm();
@@ -128,13 +129,13 @@ proptest! {
         let rolled = View::new(camera, pose).on_plane(pixel, 0.0);
         let straight = View::new(camera, pose.without_roll()).on_plane(upright, 0.0);
         if let (Ok(rolled), Ok(straight)) = (rolled, straight) {
-            // Near the horizon a rounding of the pixel is worth millimetres: compare directions, not places.
+            // Near the horizon a rounding of the pixel amounts to millimetres, so directions are compared, not places.
             let error = (rolled - straight).norm() / straight.coords.norm_squared().max(1.0);
             prop_assert!(error * pose.camera_height_mm() < 1e-9, "{rolled} {straight}");
         }
     }
 
-    /// The image point of a ray, turned back into a ray, is that ray: also right at the end of the monotone range.
+    /// The image point of a ray gives that ray back, up to the very end of the monotone range.
     #[test]
     fn lenses_invert(lens in lens(), around_rad in -PI..PI, ray_angle_rad in 0.0..3.0) {
         let (sin, cos) = f64::sin_cos(ray_angle_rad);
@@ -170,7 +171,7 @@ proptest! {
         prop_assert!((back.xy() - ideal.coords).norm() < 1e-7 * radial.ideal_limit(), "{ideal} -> {shown} -> {back}");
     }
 
-    /// No number panics; what is answered is finite.
+    /// No number leads to a panic, and all answers are finite.
     #[test]
     fn any_number_is_answered_or_refused(
         lens in lens(),
@@ -194,7 +195,7 @@ proptest! {
         }
     }
 
-    /// Lens coefficients from a file may be anything finite.
+    /// Lens coefficients from a file may be any finite numbers.
     #[test]
     fn any_coefficients_are_answered_or_refused(k in proptest::array::uniform5(any::<f64>()), pixel in pixel()) {
         let [k1, k2, p1, p2, k3] = k;
@@ -215,8 +216,8 @@ proptest! {
     }
 }
 
-/// Found by proptest: the radial terms alone never fold, but come so near to it (slope 0.005 at 0.95) that small tangential
-/// ones do, and the model shows two rays in one place. Nothing beyond that is answered.
+/// A case from proptest. The radial terms alone never fold, but come so near to it (slope 0.005 at a radius of 0.95) that small
+/// tangential terms make the model fold and show two rays in one place. No point beyond that is answered.
 #[test]
 fn tangential_terms_can_fold_what_radial_ones_do_not() {
     let (k1, k2, k3) = (-0.35809246236988074, -0.24492171498151447, 0.18913402082401448);
@@ -229,7 +230,7 @@ fn tangential_terms_can_fold_what_radial_ones_do_not() {
     assert!(matches!(shown(decentred, 1.2), Err(LensError::IdealBeyondRange { .. })));
 }
 
-/// The round trips above pass over points without an answer; this holds that most have one.
+/// The round trips above skip points without an answer. This test asserts that most points have one.
 #[test]
 fn most_pixels_have_an_answer() {
     use proptest::strategy::ValueTree;

@@ -1,10 +1,10 @@
-//! The error statistics against the published tables, recomputed from their rows. Where these differ from what is printed,
-//! the paper does not reproduce from its own rows; a comment at the line says so.
+//! The error statistics, compared with the published tables. Where a printed statistic does not follow from the printed
+//! rows, the test expects the value that does, and a comment at the line gives the printed one.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use aim_batch_model::ErrorStats;
 
-/// Object, true size, nine predictions; in cm.
+/// An object with its true size and nine predictions, in cm.
 type Setups = (&'static str, f64, [f64; 9]);
 
 const TABLE_II: [Setups; 5] = [
@@ -24,12 +24,12 @@ const TABLE_IV: [Setups; 3] = [
     ("circular bowl (medium)", 11.0, [10.28, 10.26, 11.94, 10.26, 11.64, 12.66, 11.53, 11.49, 11.44]),
     ("circular bowl (large)", 15.0, [14.62, 14.41, 17.44, 15.11, 16.92, 17.55, 15.97, 16.00, 16.49]),
 ];
-/// Printed mean and sample SD per object, in the order of the rows.
+/// The printed mean and sample SD of each object, in the order of the rows.
 const SUMMARY_II: [(f64, f64); 5] = [(-1.31, 4.82), (0.96, 4.66), (5.28, 4.39), (2.71, 4.38), (2.40, 4.73)];
 const SUMMARY_III: [(f64, f64); 3] = [(-7.40, 36.45), (-12.50, 40.90), (11.67, 36.81)];
 const SUMMARY_IV: [(f64, f64); 3] = [(4.16, 4.38), (2.52, 7.66), (7.04, 7.73)];
 
-/// Truth, four raters; in cm.
+/// A true size with those of four raters, in cm.
 type Raters = (f64, [f64; 4]);
 
 const TABLE_V: [Raters; 3] = [
@@ -37,7 +37,7 @@ const TABLE_V: [Raters; 3] = [
     (14.2, [15.1, 15.75, 15.1, 15.39]),  // pink bowl
     (14.9, [14.83, 15.2, 15.41, 15.25]), // green bowl
 ];
-/// With the truths that the printed errors imply; what is printed as truth are the raters' means.
+/// The truths are those that the printed errors imply. The table prints the raters' means as truths.
 const TABLE_VI: [Raters; 3] = [
     (3.8, [3.46, 1.563, 5.66, 2.98]), // white box
     (6.0, [6.185, 9.62, 6.7, 5.841]), // pink bowl
@@ -56,7 +56,7 @@ fn rater_errors(table: &[Raters]) -> Vec<f64> {
     table.iter().map(|(truth, raters)| error_pct(raters.iter().sum::<f64>() / 4.0, *truth)).collect()
 }
 
-/// Holds mean and SD against values given to two decimals; `tolerance` covers their rounding and that of the predictions.
+/// Asserts that mean and SD agree with values of two decimals. `tolerance` covers their rounding and that of the predictions.
 fn assert_mean_sd(got: (f64, f64), expected: (f64, f64), tolerance: f64, place: &str) {
     let close = (got.0 - expected.0).abs() <= tolerance && (got.1 - expected.1).abs() <= tolerance;
     assert!(close, "{place}: {:.3} +- {:.3}, expected {} +- {}", got.0, got.1, expected.0, expected.1);
@@ -98,8 +98,8 @@ fn tables_of_raters_have_population_sd() {
     assert_mean_sd(overall(&TABLE_VI), (4.70, 11.56), 0.006, "VI");
 }
 
-/// Mean absolute error by pitch band and by height, of the plates: 55 degrees is best, and so is 50 cm (the paper says the
-/// opposite of the latter).
+/// Mean absolute errors of the plates by pitch band and by height: 55 degrees is best, and so is 50 cm, although the paper says
+/// the opposite of the latter.
 #[test]
 fn plates_by_pitch_and_by_height() {
     let errors = setup_errors(&TABLE_II);

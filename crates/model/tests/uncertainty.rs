@@ -1,4 +1,4 @@
-//! First-order uncertainties against Monte Carlo: every input is varied by Gaussian noise, and the sizes' scatter compared.
+//! First-order uncertainties, compared with the scatter of sizes when every input varies by Gaussian noise (Monte Carlo).
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -13,7 +13,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 /// Draws per source; the SD of a sample SD is then 1.1 %.
 const DRAWS: usize = 4000;
-/// Four times that, and something for the curvature that a first-order propagation leaves out.
+/// Four times that SD, and an allowance for the curvature that a first-order propagation leaves out.
 const TOLERANCE: f64 = 0.06;
 
 const NONE: InputSigma = InputSigma::NONE;
@@ -67,11 +67,11 @@ fn lines_of_a_plate(view: &View) -> Vec<Mark> {
 
 impl Scene {
     fn sigma(&self, quantity: Quantity, inputs: &InputSigma) -> SizeSigma {
-        let found = estimate(&self.view, self.method, &self.container, &self.marks, inputs);
-        found.into_iter().find(|(q, _)| *q == quantity).unwrap().1.unwrap().sigma
+        let estimates = estimate(&self.view, self.method, &self.container, &self.marks, inputs);
+        estimates.into_iter().find(|(q, _)| *q == quantity).unwrap().1.unwrap().sigma
     }
 
-    /// SD of the size over draws of all inputs. The paper's method takes roll as zero, so its roll cannot be drawn.
+    /// SD of the size over draws of all inputs. The paper's method takes the roll as zero, so its roll cannot be drawn.
     fn monte_carlo_mm(&self, quantity: Quantity, inputs: &InputSigma) -> f64 {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         let sizes: Vec<f64> = (0..DRAWS)
@@ -123,7 +123,7 @@ impl Scene {
     }
 }
 
-/// Where a lens shows a point too far out, if it shows the corners 1 px too far out.
+/// How far a lens shows a point too far out, per px by which it shows the corners too far out.
 fn bent(point: &Point2<f64>, camera: &Camera) -> Vector2<f64> {
     let [cx, cy] = camera.principal_px();
     let out = Vector2::new(point.x - cx, point.y - cy);
@@ -203,7 +203,7 @@ fn roll_counts_for_a_slanted_view() {
     plate.check(Quantity::Diameter, InputSigma { tilt_rad: 0.01, ..NONE }, |s| s.roll_mm);
 }
 
-/// More marks of one size shrink the marks' part, and no other.
+/// More marks of one size shrink the part from the marks, and no other part.
 #[test]
 fn only_the_marks_part_shrinks_with_the_number_of_marks() {
     let one = scene(Method::Ray, 0.0, Kind::Plate, Shape::Circle, |view| lines_of_a_plate(view)[..1].to_vec());

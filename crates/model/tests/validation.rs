@@ -1,4 +1,4 @@
-//! Statistics against pingouin and numpy (vectors/agreement.json, made by vectors/agreement.py).
+//! The statistics, compared with those of pingouin and numpy (vectors/agreement.json, made by vectors/agreement.py).
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use aim_batch_model::validation::{ErrorSummary, agreement, bootstrap, coverage, paired, quantile};
@@ -26,13 +26,13 @@ fn raters_agree_as_pingouin_says() {
     let reference = reference();
     for table in ["simulated", "table_v", "table_vi"] {
         let ratings: Vec<Vec<f64>> = reference[table]["ratings"].as_array().unwrap().iter().map(numbers).collect();
-        let found = agreement(&ratings).unwrap();
-        assert_near(found.icc, &reference[table]["icc_2_1"]);
-        assert_eq!((found.targets, found.raters), (ratings.len(), 4));
+        let agreed = agreement(&ratings).unwrap();
+        assert_near(agreed.icc, &reference[table]["icc_2_1"]);
+        assert_eq!((agreed.targets, agreed.raters), (ratings.len(), 4));
     }
 }
 
-/// Raters with offsets of known variance and noise: SEM is the root of their sum.
+/// The raters have offsets and noise of known variances. The SEM is the root of their sum.
 #[test]
 fn the_standard_error_of_measurement_is_raters_and_residual() {
     let mut random = ChaCha8Rng::seed_from_u64(4);
@@ -44,9 +44,9 @@ fn the_standard_error_of_measurement_is_raters_and_residual() {
             raters.iter().map(|rater| target + rater + draw(4.0)).collect()
         })
         .collect();
-    let found = agreement(&ratings).unwrap();
-    assert!((found.sem - 5.0).abs() < 0.2, "{found:?}");
-    assert!((found.icc - 400.0 / 425.0).abs() < 0.01, "{found:?}");
+    let agreed = agreement(&ratings).unwrap();
+    assert!((agreed.sem - 5.0).abs() < 0.2, "{agreed:?}");
+    assert!((agreed.icc - 400.0 / 425.0).abs() < 0.01, "{agreed:?}");
     assert!(agreement(&ratings[..1]).is_none() && agreement(&[vec![1.0], vec![2.0]]).is_none());
     assert!(agreement(&[vec![1.0, 1.0], vec![1.0, 1.0]]).is_none());
 }
@@ -54,19 +54,19 @@ fn the_standard_error_of_measurement_is_raters_and_residual() {
 #[test]
 fn errors_in_one_line_as_numpy_says() {
     let errors = &reference()["errors"];
-    let found = ErrorSummary::from_errors(&numbers(&errors["values"])).unwrap();
+    let summary = ErrorSummary::from_errors(&numbers(&errors["values"])).unwrap();
     for (got, name) in [
-        (found.bias, "mean"),
-        (found.sd.unwrap(), "sd"),
-        (found.rmse, "rmse"),
-        (found.mae, "mae"),
-        (found.median, "median"),
-        (found.q95_absolute, "q95_absolute"),
-        (found.max_absolute, "max_absolute"),
+        (summary.bias, "mean"),
+        (summary.sd.unwrap(), "sd"),
+        (summary.rmse, "rmse"),
+        (summary.mae, "mae"),
+        (summary.median, "median"),
+        (summary.q95_absolute, "q95_absolute"),
+        (summary.max_absolute, "max_absolute"),
     ] {
         assert_near(got, &errors[name]);
     }
-    let limits = found.limits.unwrap();
+    let limits = summary.limits.unwrap();
     assert_near(limits[0], &errors["loa"][0]);
     assert_near(limits[1], &errors["loa"][1]);
     assert!(ErrorSummary::from_errors(&[]).is_none() && ErrorSummary::from_errors(&[1.0]).unwrap().limits.is_none());
@@ -86,7 +86,8 @@ fn quantiles_lie_between_neighbours() {
     assert!(quantile(vec![], 0.5).is_nan());
 }
 
-/// Clusters with errors of their own: the interval of the mean must be as wide as clusters make it, not as their many members would.
+/// Each cluster has an error of its own. The interval of the mean must be as wide as the number of clusters makes it, and
+/// not as narrow as the number of their members would.
 #[test]
 fn whole_clusters_are_drawn() {
     let mut random = ChaCha8Rng::seed_from_u64(9);
@@ -117,7 +118,7 @@ fn whole_clusters_are_drawn() {
 
 #[test]
 fn coverage_counts() {
-    let found = coverage(&[(0.5, 1.0), (-1.5, 1.0), (3.0, 1.0), (-0.9, 1.0)]).unwrap();
-    assert!((found.within_68 - 0.5).abs() < 1e-15 && (found.within_95 - 0.75).abs() < 1e-15);
+    let counted = coverage(&[(0.5, 1.0), (-1.5, 1.0), (3.0, 1.0), (-0.9, 1.0)]).unwrap();
+    assert!((counted.within_68 - 0.5).abs() < 1e-15 && (counted.within_95 - 0.75).abs() < 1e-15);
     assert!(coverage(&[]).is_none());
 }

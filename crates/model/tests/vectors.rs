@@ -1,5 +1,5 @@
-//! The plane model against points computed by another program (`vectors/plane.csv`): pitches from 30 to 80 degrees, rolls,
-//! raw and corrected cameras, barrel lenses, several planes.
+//! The plane model, compared with points that another program computed (`vectors/plane.csv`): with pitches from 30 to 80
+//! degrees, rolls, raw and corrected cameras, barrel lenses, and several planes.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use aim_batch_model::{Camera, CameraSpec, LensSpec, Pose, View};

@@ -21,7 +21,7 @@ pub fn run_jobs() {
     let mut fresh = |jobs: usize| {
         folders += 1;
         let work = folder.path().join(format!("work{folders}"));
-        of(&study, &work, jobs);
+        measure_jobs(&study, &work, jobs);
         std::fs::remove_dir_all(work).unwrap();
     };
     let fresh = std::cell::RefCell::new(&mut fresh);
@@ -29,8 +29,8 @@ pub fn run_jobs() {
     let title = format!("{SESSIONS} cards of {IMAGES} images and their sensors, {megabytes:.0} MB, seconds");
     turns::compare(&title, ("run --jobs 2", &mut two), ("run --jobs 1", &mut one));
     let kept = folder.path().join("kept");
-    of(&study, &kept, 2);
-    let mut again = || of(&study, &kept, 2);
+    measure_jobs(&study, &kept, 2);
+    let mut again = || measure_jobs(&study, &kept, 2);
     turns::compare(&title, ("second run --jobs 2", &mut again), ("first run --jobs 2", &mut two));
 }
 
@@ -46,7 +46,7 @@ fn study(dir: &Path) -> Study {
     Study::load(dir, |_| {}).unwrap()
 }
 
-fn of(study: &Study, work_dir: &Path, jobs: usize) {
+fn measure_jobs(study: &Study, work_dir: &Path, jobs: usize) {
     let options = RunOptions {
         jobs: NonZeroUsize::new(jobs),
         image_memory_bytes: 256 << 20,

@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use aim_batch_pipeline::signals::{self, PoseSettings, ReadingSettings};
-use aim_batch_pipeline::study::{SelectSpec, SignalsSpec};
 use ingest::{NoProgress, SessionReader, ingest_session};
 use model::UtcNs;
 
@@ -32,6 +31,6 @@ pub fn pitch_at_images(mcap: &std::path::Path, seconds: i64) -> usize {
     let mut reader = SessionReader::open(mcap).unwrap();
     let times: Vec<UtcNs> = (1..seconds / 10).map(|i| UtcNs((card::START_S + 10 * i) * 1_000_000_000)).collect();
     let found = signals::at_images(&mut reader, &times, &ReadingSettings::default()).unwrap();
-    let settings = PoseSettings::new(&SignalsSpec::default(), &SelectSpec::default(), 21_f64.to_radians());
+    let settings = PoseSettings::with_mount(21_f64.to_radians());
     found.readings.iter().filter(|reading| reading.judge(&settings).pitch_roll_rad.is_some()).count()
 }

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use model::Stage;
 
-/// At the begin of a stage.
-pub(crate) fn at(session: &str, stage: Stage) {
+/// Called at the beginning of a stage: panics or waits where the environment asks for it.
+pub(crate) fn inject(session: &str, stage: Stage) {
     let asked = std::env::var("AIM_BATCH_TEST_PANIC").unwrap_or_default();
     assert!(asked != format!("{session}:{stage}"), "a fault on purpose in stage {stage}");
     let pause_ms = std::env::var("AIM_BATCH_TEST_PAUSE_MS").ok().and_then(|text| text.parse().ok());

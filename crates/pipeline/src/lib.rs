@@ -1,18 +1,19 @@
 //! From a study on disk to rows of results.
 //!
-//! One session: its card is ingested to MCAP, [`signals`] turn samples into a pose for each image, frames near the target
-//! pitch are selected, people's marks ([`labelme`]) become sizes, and sizes of selected frames are fused. [`run`] does this
-//! for all sessions of a [`Study`] in parallel and hands the rows to a [`model::ResultSink`].
+//! In one session the card is ingested to MCAP, [`signals`] turn samples into a pose for each image, images near the target
+//! pitch are selected, people's marks ([`labelme`]) become sizes, and the sizes of selected images are fused. [`run()`] does
+//! this for all sessions of a [`Study`] in parallel and hands the rows to a [`model::ResultSink`].
 //!
-//! [`check`] goes the same road without pictures and stores nothing: what a run would lose, before it. [`inspect`] tells
-//! what is in recordings.
+//! [`check()`] does the same without pictures and stores nothing: it tells before a run what that would lose. [`inspect`]
+//! shows the content of recordings.
 //!
-//! Progress is told to a [`Reporter`]; this crate draws nothing. A session that fails becomes a status with a code, a fact
-//! and a remedy; the others complete.
+//! Progress is reported to a [`Reporter`]; this crate draws nothing. A session that fails becomes a status with a code, a
+//! fact and a remedy; the others complete.
 #![warn(missing_docs)]
 
 mod annotate;
 pub mod calibrate;
+pub mod calibration;
 mod check;
 pub mod exchange;
 #[cfg(debug_assertions)]
@@ -22,11 +23,10 @@ mod inputs;
 pub mod inspect;
 pub mod labelme;
 pub mod overlay;
+mod parallel;
 mod reporter;
-pub mod rims;
 mod run;
 mod session;
-mod sessions;
 pub mod signals;
 mod stop;
 pub mod study;
@@ -38,9 +38,9 @@ pub use annotate::{Annotated, NotAnnotated, annotate};
 pub use check::{Checked, check};
 pub use gallery::{Gallery, GalleryError, GalleryHalted, GalleryOptions, NotShown, gallery};
 pub use inspect::{inspect_file, inspect_study};
+pub use parallel::default_jobs;
 pub use reporter::{Reporter, Silent, Totals};
 pub use run::{Current, Halted, Ran, RunError, RunOptions, SessionState, StudyState, run, status};
-pub use sessions::default_jobs;
 pub use stop::Stop;
 pub use study::{Study, StudyError};
 pub use survey::{SurveyError, SurveyOptions};

@@ -1,4 +1,4 @@
-//! Rims, axes and sizes drawn on a picture, for people to look at.
+//! Draws rims, axes and sizes on a picture, for people to look at.
 
 use embedded_graphics::Drawable;
 use embedded_graphics::Pixel;
@@ -12,22 +12,22 @@ use ingest::Picture;
 use model::{Feature, Mark, ObjectMarks, Shape, View, fit_circle};
 use nalgebra::{Point2, Point3, Vector2};
 
-/// What is drawn of one object.
+/// An object to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawn {
-    /// Its marks.
+    /// The marks of the object.
     pub marks: ObjectMarks,
-    /// Its outline: what is drawn through points along its rim.
+    /// The outline of the object, which is drawn through the points along its rim.
     pub shape: Shape,
-    /// Height of its rim above the table, where circles and rectangles are drawn.
+    /// The height of its rim above the table, at which circles and rectangles are drawn.
     pub plane_z_mm: f64,
-    /// What is written beside it, line by line (ASCII).
+    /// The text beside it, line by line (ASCII).
     pub text: Vec<String>,
 }
 
-/// Line width: one pixel for pictures of up to this many pixels across.
+/// A line is one pixel wide for pictures of up to this many pixels across.
 const LINE_SIDE_PX: u32 = 800;
-/// Places along a drawn circle, and along a side.
+/// The number of places along a drawn circle, and along a side.
 const PLACES: u32 = 180;
 const SIDE_PLACES: u32 = 24;
 const RIM: Rgb888 = Rgb888::GREEN;
@@ -47,7 +47,7 @@ pub fn draw(picture: &mut Picture, view: &View, objects: &[Drawn]) {
         if let Some(corner) = corner {
             let text = object.text.join("\n");
             let extent = Text::new(&text, corner, style).bounding_box();
-            // Moved back where it would run over the right border or the bottom.
+            // The text is moved back where it would run over the right border or the bottom.
             let over =
                 |end: Option<i32>, most: u32| end.map_or(0, |end| (end - i32::try_from(most).unwrap_or(end)).max(0));
             let end = extent.bottom_right();
@@ -58,7 +58,7 @@ pub fn draw(picture: &mut Picture, view: &View, objects: &[Drawn]) {
     }
 }
 
-/// The marks and the circles through them; where text belongs.
+/// Draws the marks and the circles through them, and returns the place where text belongs.
 fn draw_marks(canvas: &mut Canvas<'_>, view: &View, object: &Drawn, width: u32) -> Option<Point> {
     let mut corner = None;
     for mark in &object.marks.marks {
@@ -90,16 +90,16 @@ fn draw_marks(canvas: &mut Canvas<'_>, view: &View, object: &Drawn, width: u32) 
     corner
 }
 
-/// The sides between corners on a plane, straight there, and the lines from side to side.
+/// Draws the sides between corners on a plane, straight there, and the lines from side to side.
 fn corners(canvas: &mut Canvas<'_>, view: &View, corners_px: [Point2<f64>; 4], z_mm: f64, width: u32) {
     let [Ok(a), Ok(b), Ok(c), Ok(d)] = corners_px.map(|p| view.on_plane(p, z_mm)) else { return };
     let mut straight = |from: Point2<f64>, to: Point2<f64>, colour: Rgb888| {
-        let at = |i: u32| {
+        let pixel_at = |i: u32| {
             let place = from + (to - from) * (f64::from(i) / f64::from(SIDE_PLACES));
             view.pixel_of(Point3::new(place.x, place.y, z_mm)).ok()
         };
         for i in 0..SIDE_PLACES {
-            if let (Some(one), Some(other)) = (at(i), at(i + 1)) {
+            if let (Some(one), Some(other)) = (pixel_at(i), pixel_at(i + 1)) {
                 line(canvas, one, other, colour, width);
             }
         }
@@ -112,26 +112,26 @@ fn corners(canvas: &mut Canvas<'_>, view: &View, corners_px: [Point2<f64>; 4], z
     }
 }
 
-/// The circle through points on a plane, with its axes along world X and Y.
+/// Draws the circle through points on a plane, with its axes along world X and Y.
 fn circle(canvas: &mut Canvas<'_>, view: &View, points_px: &[Point2<f64>], z_mm: f64, width: u32) {
     let on_plane: Result<Vec<_>, _> = points_px.iter().map(|p| view.on_plane(*p, z_mm)).collect();
-    let Some(found) = on_plane.ok().and_then(|points| fit_circle(&points, |_, _| 1.0).ok()) else { return };
-    let at = |angle: f64| {
+    let Some(fitted) = on_plane.ok().and_then(|points| fit_circle(&points, |_, _| 1.0).ok()) else { return };
+    let pixel_at = |angle: f64| {
         let (sin, cos) = angle.sin_cos();
         let (x, y) = (
-            found.circle.center_mm.x + found.circle.radius_mm * cos,
-            found.circle.center_mm.y + found.circle.radius_mm * sin,
+            fitted.circle.center_mm.x + fitted.circle.radius_mm * cos,
+            fitted.circle.center_mm.y + fitted.circle.radius_mm * sin,
         );
         view.pixel_of(Point3::new(x, y, z_mm)).ok()
     };
     let turn = |i: u32| f64::from(i) / f64::from(PLACES) * std::f64::consts::TAU;
     for i in 0..PLACES {
-        if let (Some(a), Some(b)) = (at(turn(i)), at(turn(i + 1))) {
+        if let (Some(a), Some(b)) = (pixel_at(turn(i)), pixel_at(turn(i + 1))) {
             line(canvas, a, b, RIM, width);
         }
     }
     for i in [0, PLACES / 4] {
-        if let (Some(a), Some(b)) = (at(turn(i)), at(turn(i + PLACES / 2))) {
+        if let (Some(a), Some(b)) = (pixel_at(turn(i)), pixel_at(turn(i + PLACES / 2))) {
             line(canvas, a, b, AXES, width);
         }
     }

@@ -4,7 +4,7 @@
 //! and pictures with marks. `... large DIR` has 10,000 measurements and 50,000 images. Both write DIR/results.parquet
 //! with its ledger, from which `aim-batch report` makes a report without pictures, and DIR/report with pictures.
 
-#![allow(clippy::print_stdout, reason = "tells what it made")]
+#![allow(clippy::print_stdout, reason = "says what it made")]
 
 mod drawn;
 mod rows;
@@ -17,26 +17,26 @@ use model::{GallerySink as _, ResultSink as _};
 use report::{
     Page, ParquetSink, Pictures, Results, figures, frames_file, read_run_log, run_file, write_figures, write_report,
 };
-use rows::Made;
+use rows::Study;
 
 fn main() -> anyhow::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [size, dir] = arguments.as_slice() else { bail!("expected: small|large DIR") };
-    let made = match size.as_str() {
+    let study = match size.as_str() {
         "small" => rows::small(),
         "large" => rows::large(),
         other => bail!("expected small or large, got '{other}'"),
     };
     let dir = PathBuf::from(dir);
     std::fs::create_dir_all(&dir).with_context(|| format!("cannot make {}", dir.display()))?;
-    let results = write_results(&made, &dir.join("results.parquet"))?;
+    let results = write_results(&study, &dir.join("results.parquet"))?;
     let begun = Instant::now();
     let report = dir.join("report");
-    let pictures = write_pictures(&made, &report)?;
+    let pictures = write_pictures(&study, &report)?;
     println!("{} pictures in {:.1} s", pictures.len(), begun.elapsed().as_secs_f64());
     let begun = Instant::now();
     let log = read_run_log(&run_file(&dir.join("results.parquet")), &results.metadata);
-    let frames: Vec<_> = made.sessions.iter().flat_map(|(_, frames)| frames.clone()).collect();
+    let frames: Vec<_> = study.sessions.iter().flat_map(|(_, frames)| frames.clone()).collect();
     let figures = figures(&results, &frames)?;
     write_figures(&figures, &report)?;
     let page = Page { results: &results, log: log.as_ref(), figures: &figures, pictures: &pictures };
@@ -45,23 +45,23 @@ fn main() -> anyhow::Result<()> {
     Ok(())
 }
 
-fn write_results(made: &Made, out: &Path) -> anyhow::Result<Results> {
+fn write_results(study: &Study, out: &Path) -> anyhow::Result<Results> {
     let frames = frames_file(out);
     let mut sink = ParquetSink::create(out, &frames)?;
-    for (results, frames) in &made.sessions {
+    for (results, frames) in &study.sessions {
         sink.session(results.clone(), frames.clone())?;
     }
-    sink.finish(&made.metadata, &made.log)?;
+    sink.finish(&study.metadata, &study.log)?;
     let mut results = Results::read(out)?;
     results.read_flow(&frames)?;
     Ok(results)
 }
 
-/// One picture per measured image, and for the first of them two views more.
-fn write_pictures(made: &Made, report: &Path) -> anyhow::Result<Pictures> {
+/// Writes one picture per measured image, and for the first of them two more views.
+fn write_pictures(study: &Study, report: &Path) -> anyhow::Result<Pictures> {
     let mut pictures = Pictures::new(report);
     let mut scene = drawn::Scene::new()?;
-    for (results, _) in &made.sessions {
+    for (results, _) in &study.sessions {
         for picture in scene.pictures(results) {
             pictures.picture(picture)?;
         }

@@ -5,27 +5,27 @@ use model::{
     Severity, Stage, UtcNs,
 };
 
-/// Rows of a study, session by session, with what its results file says of it.
-pub struct Made {
+/// The rows of a study, session by session, with the metadata and the times of its run.
+pub struct Study {
     pub sessions: Vec<(Vec<ResultRow>, Vec<FrameRow>)>,
     pub metadata: RunMetadata,
     pub log: RunLog,
 }
 
-/// What a study is made of.
+/// The names and numbers that a study is made from.
 struct Plan<'a> {
     study: &'a str,
     sessions: Vec<String>,
     objects: &'a [&'a str],
     raters: &'a [&'a str],
-    /// Images of a session, and those of them that are marked.
+    /// Number of images of a session; `marked` of them are marked.
     images: u32,
     marked: u32,
 }
 
-/// Names that mean something to HTML, JSON, CSS and file systems.
-pub fn small() -> Made {
-    made(&Plan {
+/// A small study whose names mean something to HTML, JSON, CSS and file systems.
+pub fn small() -> Study {
+    study(&Plan {
         study: "<script>alert(1)</script>",
         sessions: [
             "</script><script>alert(2)</script>",
@@ -42,9 +42,9 @@ pub fn small() -> Made {
     })
 }
 
-/// 10,000 measurements, 50,000 images.
-pub fn large() -> Made {
-    made(&Plan {
+/// A study of 10,000 measurements and 50,000 images.
+pub fn large() -> Study {
+    study(&Plan {
         study: "large",
         sessions: (1..=200).map(|number| format!("P{number:03}-lunch")).collect(),
         objects: &["plate", "soup bowl"],
@@ -54,7 +54,7 @@ pub fn large() -> Made {
     })
 }
 
-fn made(plan: &Plan<'_>) -> Made {
+fn study(plan: &Plan<'_>) -> Study {
     let mut dice = Dice(7);
     let sessions: Vec<_> = plan.sessions.iter().map(|session| rows(plan, session, &mut dice)).collect();
     let status = |(place, name): (usize, &String)| {
@@ -82,14 +82,14 @@ fn made(plan: &Plan<'_>) -> Made {
         jobs: 2,
         ..RunLog::default()
     };
-    Made { sessions, metadata, log }
+    Study { sessions, metadata, log }
 }
 
 fn status(name: &str, place: usize, results: &[ResultRow], frames: &[FrameRow]) -> SessionStatus {
     let problem = |severity: Severity| Problem {
         severity,
         stage: Stage::Ingest,
-        code: "packet_damaged".to_owned(),
+        code: model::ProblemCode::BadBlocks,
         place: format!("cards/{name}/SENSORS/ACC.BIN"),
         fact: "expected 1022 samples <in> a packet, got 511".to_owned(),
         remedy: "copy the card again & run again".to_owned(),

@@ -1,18 +1,34 @@
-//! `calibrate`: what a bench with known sizes tells of a device.
+//! `calibrate`: learns the corrections of a device from a bench with objects of known size.
 
 use std::fmt::Write as _;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
 use anyhow::anyhow;
 use model::SessionStatus;
-use pipeline::calibrate::{self, CalibrationFile, EmpiricalEntry, HeldOutEntry, PhysicalEntry};
+use pipeline::calibrate;
+use pipeline::calibration::{CalibrationFile, EmpiricalEntry, HeldOutEntry, PhysicalEntry};
 use pipeline::{Study, SurveyOptions};
 
-use super::{PROGRAM, outcome, print, stop_on_signals, survey_failure, tell};
-use crate::args::CalibrateArgs;
+use super::{PROGRAM, outcome, print, print_message, stop_on_signals, survey_failure};
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
-/// Learns, prints a table, and writes the file.
+/// The arguments of `calibrate`.
+#[derive(Debug, clap::Args)]
+pub struct CalibrateArgs {
+    /// Folder of the study (docs/study.md), with true sizes in objects.csv; nothing is written into it
+    pub study: PathBuf,
+    /// The file to write
+    #[arg(short, long, default_value = "calibration.toml")]
+    pub out: PathBuf,
+    /// Sessions at a time; default: the cores that this process may use
+    #[arg(short, long, env = "AIM_BATCH_JOBS")]
+    pub jobs: Option<NonZeroUsize>,
+}
+
+/// Learns the corrections, prints a table of the errors before and after them, and writes the calibration file. Fails where
+/// nothing could be learned.
 pub fn run(args: &CalibrateArgs, bars: &Bars) -> Result<Outcome, Failure> {
     if args.out.extension().is_none_or(|extension| extension != "toml") {
         return Err(Failure::Usage(anyhow!("--out {}: expected a name that ends in .toml", args.out.display())));
@@ -27,14 +43,14 @@ pub fn run(args: &CalibrateArgs, bars: &Bars) -> Result<Outcome, Failure> {
         )));
     }
     ::report::write_file(&args.out, file.to_toml()?.as_bytes())?;
-    tell(&format!("wrote {}\n", args.out.display()));
+    print_message(&format!("wrote {}\n", args.out.display()));
     for session in sessions.iter().filter(|session| session.has_losses()) {
         tracing::warn!(session = session.session, "not all of it could be used; aim-batch check tells what and why");
     }
     Ok(outcome(sessions.iter().any(SessionStatus::has_losses)))
 }
 
-/// What was learned, with the errors before and after.
+/// A table of the errors before and after, and below it the corrections that were learned, for people.
 fn text(file: &CalibrationFile) -> String {
     let mut text = String::new();
     let _ = writeln!(

@@ -1,16 +1,16 @@
-//! Pictures for the page of a report, from the work folder of the run that gave the results.
+//! Takes the pictures for the page of a report from the work folder of the run that gave the results.
 
 use model::GallerySink;
 use pipeline::{GalleryError, GalleryHalted, GalleryOptions, NotShown, Reporter};
 
-use super::tell;
+use super::print_message;
 use crate::exit::Failure;
 
-/// More of them are counted, not listed.
+/// Number of missing pictures that are listed. More are only counted.
 const LISTED: usize = 5;
 
-/// Hands all pictures of the sessions to `sink`. Gives whether some could not be shown; where there is no work folder the
-/// report does without, and says so.
+/// Hands all pictures of the sessions to `sink`, and returns whether some could not be shown. Where there is no work folder,
+/// the report has no pictures, and a message says so.
 pub fn gallery_into<S: GallerySink>(
     options: &GalleryOptions<'_>,
     progress: &dyn Reporter,
@@ -18,11 +18,11 @@ pub fn gallery_into<S: GallerySink>(
 ) -> Result<bool, Failure> {
     match pipeline::gallery(options, progress, sink) {
         Ok(made) => {
-            tell(&not_shown(&made.not_shown));
+            print_message(&not_shown(&made.not_shown));
             Ok(!made.not_shown.is_empty())
         }
         Err(GalleryError::Halted(error @ GalleryHalted::NoWork(_))) => {
-            tell(&format!("no pictures in the report: {error}\n  -> give --work, or run the study again\n"));
+            print_message(&format!("no pictures in the report: {error}\n  -> give --work, or run the study again\n"));
             Ok(false)
         }
         Err(GalleryError::Halted(error @ GalleryHalted::Stopped { signal })) => {

@@ -1,15 +1,40 @@
-//! `ingest`: one card to one MCAP file.
+//! `ingest`: makes one MCAP file from one card.
 
 use ::ingest::{Profile, SessionSource, camera, ingest_session};
 use anyhow::{Context, anyhow};
 use model::Severity;
+use std::path::PathBuf;
 
-use super::{PROGRAM, outcome, print, tell};
-use crate::args::IngestArgs;
+use super::{PROGRAM, outcome, print, print_message};
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
-/// Ingests, and tells what was found and what was lost.
+/// The arguments of `ingest`.
+#[derive(Debug, clap::Args)]
+pub struct IngestArgs {
+    /// Folder of the card as it was copied
+    pub card: PathBuf,
+    /// The MCAP file to write
+    #[arg(short, long)]
+    pub out: PathBuf,
+    /// Device profile: built in (aim2-packets, csv, pupil-neon, axivity-cwa), or a name in --devices
+    #[arg(long, default_value = "aim2-packets")]
+    pub profile: String,
+    /// Camera: built in (aim2-raw, aim2-corrected), or a name in --devices
+    #[arg(long, default_value = "aim2-raw")]
+    pub camera: String,
+    /// Folder with device profiles and cameras
+    #[arg(long, default_value = "devices")]
+    pub devices: PathBuf,
+    /// Time zone of times that name none (IANA)
+    #[arg(long, default_value = "UTC")]
+    pub time_zone: String,
+    /// When a clock that counts from the device's start was zero, such as 2026-03-01T09:00:00Z
+    #[arg(long, value_name = "UTC")]
+    pub clock_zero: Option<jiff::Timestamp>,
+}
+
+/// Ingests the card, prints the numbers of images and samples, and writes to stderr what was lost.
 pub fn run(args: &IngestArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let session = args.card.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
     let source = SessionSource {
@@ -36,10 +61,10 @@ pub fn run(args: &IngestArgs, bars: &Bars) -> Result<Outcome, Failure> {
         source.camera_spec.name,
     ))?;
     for image in &summary.dropped_images {
-        tell(&format!("dropped {}: {} ({})\n", image.file, image.reason.meaning(), image.reason));
+        print_message(&format!("dropped {}: {} ({})\n", image.file, image.reason.meaning(), image.reason));
     }
     for problem in &summary.problems {
-        tell(&format!("{} in {}: {}; {}\n", problem.code, problem.place, problem.fact, problem.remedy));
+        print_message(&format!("{} in {}: {}; {}\n", problem.code, problem.place, problem.fact, problem.remedy));
     }
     Ok(outcome(
         !summary.dropped_images.is_empty() || summary.problems.iter().any(|problem| problem.severity == Severity::Loss),

@@ -1,18 +1,31 @@
-//! `report`: tables and page again, from the files that `run` wrote.
+//! `report`: makes tables and page again, from the files that `run` wrote.
 
 use std::io;
+use std::path::PathBuf;
 
 use ::report::{ReadError, Results, frames_file};
 
-use super::{outcome, page, print, stop_on_signals, tables_text, tell};
-use crate::args::ReportArgs;
+use super::{outcome, page, print, print_message, stop_on_signals, tables_text};
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
-/// Decoded pictures in memory at once: what `run --memory` is by default.
+/// The arguments of `report`.
+#[derive(Debug, clap::Args)]
+pub struct ReportArgs {
+    /// results.parquet of a run; the ledger of images, frames.parquet, is looked for beside it
+    pub results: PathBuf,
+    /// Folder for the report: index.html, and the tables as CSV, Markdown and LaTeX; without it they are only printed
+    #[arg(short, long)]
+    pub out: Option<PathBuf>,
+    /// Work folder of the run, whose recordings hold the pictures; default: the name of the results with .work
+    #[arg(long, value_name = "DIR", env = "AIM_BATCH_WORK")]
+    pub work: Option<PathBuf>,
+}
+
+/// Upper bound of the decoded pictures that are in memory at once: the default of `run --memory`.
 const PICTURE_MEMORY_BYTES: u64 = 256 << 20;
 
-/// Prints the tables, and writes the report when a folder is given.
+/// Prints the tables, and writes the report where a folder is given.
 pub fn run(args: &ReportArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let mut results = Results::read(&args.results)?;
     let mut lost = read_flow(&mut results, args)?;
@@ -29,22 +42,26 @@ pub fn run(args: &ReportArgs, bars: &Bars) -> Result<Outcome, Failure> {
         };
         let written = page::write(&results, source, dir, bars)?;
         lost |= written.lost;
-        tell(&format!("wrote {}\n", written.page.display()));
+        print_message(&format!("wrote {}\n", written.page.display()));
     }
     Ok(outcome(lost))
 }
 
-/// Whether the images could not be counted although their ledger is there. The other tables do not need it.
+/// Adds the flow of images to the results, and returns whether it is lost: the ledger is there but cannot be used. The other
+/// tables do not need it.
 fn read_flow(results: &mut Results, args: &ReportArgs) -> io::Result<bool> {
     let frames = frames_file(&args.results);
     match results.read_flow(&frames) {
         Ok(()) => Ok(false),
         Err(ReadError::Open { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
-            tell(&format!("no flow of images: expected the ledger beside the results, {}\n", frames.display()));
+            print_message(&format!(
+                "no flow of images: expected the ledger beside the results, {}\n",
+                frames.display()
+            ));
             Ok(false)
         }
         Err(error) => {
-            tell(&format!("no flow of images: {error}\n"));
+            print_message(&format!("no flow of images: {error}\n"));
             Ok(true)
         }
     }

@@ -1,20 +1,41 @@
-//! `status`: what a run has done, and what it would do.
+//! `status`: shows what a run has done, and what another would do.
 
 use std::fmt::Write as _;
+use std::path::PathBuf;
 
 use indicatif::{HumanBytes, HumanCount};
 use model::SessionStatus;
 use pipeline::{SessionState, StudyState};
 use serde::Serialize;
 
+use super::place::PlaceArgs;
+use super::settings::SettingsArgs;
 use super::{COMMIT, PROGRAM, print, settings};
-use crate::args::StatusArgs;
 use crate::exit::{Failure, Outcome};
 
-/// Rises when a key is removed, renamed, or changes its meaning.
+/// The arguments of `status`.
+#[derive(Debug, clap::Args)]
+pub struct StatusArgs {
+    /// Folder of the study (docs/study.md)
+    pub study: PathBuf,
+    /// Where results go, and what is kept between runs
+    #[command(flatten)]
+    pub place: PlaceArgs,
+    /// List every session, also those of which nothing is to be done and nothing was lost
+    #[arg(long)]
+    pub all: bool,
+    /// JSON on stdout (docs/runs.md)
+    #[arg(long)]
+    pub json: bool,
+    /// Settings in place of study.toml's
+    #[command(flatten)]
+    pub settings: SettingsArgs,
+}
+
+/// Version of the JSON. It rises when a key is removed, renamed, or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
 
-/// Tells it.
+/// Prints the state of the study's sessions, as text or as JSON.
 pub fn run(args: &StatusArgs) -> Result<Outcome, Failure> {
     let study = settings::load(&args.study, &args.settings)?;
     let work_dir = args.place.work_dir();

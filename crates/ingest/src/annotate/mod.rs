@@ -165,10 +165,10 @@ impl Annotated<'_> {
         let time = image.time;
         self.writer.copy::<CompressedImage>(topic::IMAGE, message.sequence, time, &message.data)?;
         self.writer.calibration(self.what.camera, time)?;
-        self.writer.note(topics::FRAME, time, &FrameNumbers::of(notes.frame))?;
+        self.writer.note(topics::FRAME, time, &FrameNumbers::from_frame(notes.frame))?;
         self.log(&log::of_frame(image, notes.frame))?;
         for row in &notes.sizes {
-            self.writer.note(&topics::of_size(row), time, &SizeNumbers::of(row))?;
+            self.writer.note(&topics::of_size(row), time, &SizeNumbers::from_row(row))?;
         }
         let overlay = overlay::annotations(&notes, self.what, time);
         self.writer.note(topics::OVERLAY, time, &overlay)?;

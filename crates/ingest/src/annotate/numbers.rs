@@ -37,7 +37,7 @@ pub(crate) struct FrameNumbers {
 }
 
 impl FrameNumbers {
-    pub fn of(frame: &FrameRow) -> Self {
+    pub fn from_frame(frame: &FrameRow) -> Self {
         Self {
             pitch_deg: or_gap(frame.pitch_deg),
             roll_deg: or_gap(frame.roll_deg),
@@ -83,7 +83,7 @@ pub(crate) struct SizeNumbers {
 }
 
 impl SizeNumbers {
-    pub fn of(row: &ResultRow) -> Self {
+    pub fn from_row(row: &ResultRow) -> Self {
         let (size_mm, sigma_mm) = (or_gap(row.predicted_mm), or_gap(row.sigma_mm));
         Self {
             size_mm,
@@ -118,7 +118,7 @@ mod tests {
             range_mm: Some(480.0),
             ..FrameRow::without_numbers("study", "S1", "a.jpg", FrameReason::Selected)
         };
-        let numbers = FrameNumbers::of(&frame);
+        let numbers = FrameNumbers::from_frame(&frame);
         assert!(numbers.roll_deg.is_nan() && numbers.selected);
         let mut reference = Vec::new();
         foxglove::Encode::encode(&numbers, &mut reference).unwrap();

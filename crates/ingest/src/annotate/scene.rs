@@ -80,7 +80,7 @@ fn grid(view: &View) -> LinePrimitive {
 fn line(kind: Type, points: Vec<Point3>, colour: Color, thickness: f64) -> LinePrimitive {
     LinePrimitive {
         r#type: kind.into(),
-        pose: Some(at(0.0, 0.0, 0.0)),
+        pose: Some(upright_at(0.0, 0.0, 0.0)),
         thickness,
         points,
         color: Some(colour),
@@ -91,11 +91,11 @@ fn line(kind: Type, points: Vec<Point3>, colour: Color, thickness: f64) -> LineP
 /// In the middle of what it names.
 fn text(points: &[Point3], text: String, color: Color) -> TextPrimitive {
     let mean = |of: fn(&Point3) -> f64| points.iter().map(of).sum::<f64>() / points.len().max(1) as f64;
-    let pose = Some(at(mean(|p| p.x), mean(|p| p.y), mean(|p| p.z)));
+    let pose = Some(upright_at(mean(|p| p.x), mean(|p| p.y), mean(|p| p.z)));
     TextPrimitive { pose, billboard: true, font_size: 12.0, scale_invariant: true, color: Some(color), text }
 }
 
-fn at(x: f64, y: f64, z: f64) -> Pose {
+fn upright_at(x: f64, y: f64, z: f64) -> Pose {
     Pose { position: Some(Vector3 { x, y, z }), orientation: Some(Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 1.0 }) }
 }
 

@@ -2,45 +2,22 @@
 
 mod clock_problems;
 mod dropped;
-mod error;
 mod image_tally;
 mod read_ahead;
 mod recordings;
 mod run;
 
-pub use error::IngestError;
-
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::card::{Card, Place};
+use crate::error::IngestError;
 use crate::key;
 use crate::mcap_file::Keep;
-use crate::profile::Profile;
 use crate::progress::IngestProgress;
+use crate::read::ingest_is_current;
+use crate::source::SessionSource;
 use crate::summary::IngestSummary;
-use jiff::Timestamp;
-use jiff::tz::TimeZone;
-use model::CameraSpec;
 use run::Run;
-
-/// What one session is ingested from.
-#[derive(Debug, Clone)]
-pub struct SessionSource {
-    /// Name of the session.
-    pub session: String,
-    /// The card as it was copied.
-    pub card_dir: PathBuf,
-    /// What the device writes.
-    pub profile: Profile,
-    /// The camera of this session.
-    pub camera_spec: CameraSpec,
-    /// For image times that name no zone.
-    pub time_zone: TimeZone,
-    /// When a boot-relative clock was zero, where the profile says that the session tells.
-    pub clock_zero_utc: Option<Timestamp>,
-    /// Program and version, for the file's metadata.
-    pub program: String,
-}
 
 /// What [`ingest_if_changed`] did.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,16 +42,6 @@ impl Ingested {
     }
 }
 
-impl SessionSource {
-    pub(crate) fn list_card(&self) -> Result<Card, IngestError> {
-        Card::list(&self.card_dir).map_err(|source| IngestError::NoCard {
-            session: self.session.clone(),
-            card_dir: self.card_dir.clone(),
-            source,
-        })
-    }
-}
-
 /// Ingests a session unless `out` was made from the same input. The card is hashed beforehand only if `out` exists.
 ///
 /// # Errors
@@ -89,7 +56,7 @@ pub fn ingest_if_changed(
         if progress.is_stopped() {
             return Err(IngestError::Stopped);
         }
-        if key::ingest_is_current(out, &key) {
+        if ingest_is_current(out, &key) {
             return Ok(Ingested::Current { key });
         }
     }

@@ -2,8 +2,8 @@
 
 use std::sync::mpsc::sync_channel;
 
-use super::IngestError;
 use crate::card::{CardFile, Inputs, LARGEST_IMAGE_BYTES, read_image};
+use crate::error::IngestError;
 use crate::progress::IngestProgress;
 use crate::summary::DroppedImage;
 

@@ -1,6 +1,6 @@
 //! Whether a card holds more than one recording.
 
-use model::{Problem, UtcNs};
+use model::{Problem, ProblemCode, UtcNs};
 
 use crate::card::Place;
 use crate::parse::image_time::utc_text;
@@ -37,7 +37,7 @@ pub(super) fn note(times: &[UtcNs], place: &Place) -> Option<Problem> {
     let fact = format!("images in {count} stretches with more than 6 h between them, UTC: {listed}{and_more}");
     let remedy = "if they are sessions of two wearers, put each in a card folder of its own; if the device's clock was \
                   reset, correct it";
-    Some(place.note("two_recordings", "", fact, remedy))
+    Some(place.note(ProblemCode::TwoRecordings, "", fact, remedy))
 }
 
 #[cfg(test)]
@@ -48,37 +48,37 @@ mod tests {
 
     use super::*;
 
-    fn at(seconds: &[i64]) -> Vec<UtcNs> {
+    fn times(seconds: &[i64]) -> Vec<UtcNs> {
         seconds.iter().map(|second| UtcNs(second * 1_000_000_000)).collect()
     }
 
     #[test]
     fn a_hole_that_is_longer_begins_another_stretch() {
         let second = |s: i64| UtcNs(s * 1_000_000_000);
-        assert_eq!(recordings(&at(&[0, 10, 20]), 10.0), [(second(0), second(20), 3)]);
+        assert_eq!(recordings(&times(&[0, 10, 20]), 10.0), [(second(0), second(20), 3)]);
         assert_eq!(
-            recordings(&at(&[40, 0, 10, 21, 22]), 10.0),
+            recordings(&times(&[40, 0, 10, 21, 22]), 10.0),
             [(second(0), second(10), 2), (second(21), second(22), 2), (second(40), second(40), 1)]
         );
         assert_eq!(recordings(&[], 10.0), []);
-        assert_eq!(recordings(&at(&[5, 5]), 0.0), [(second(5), second(5), 2)]);
+        assert_eq!(recordings(&times(&[5, 5]), 0.0), [(second(5), second(5), 2)]);
     }
 
     #[test]
     fn a_card_with_one_stretch_says_nothing() {
         let place = Place::of_card(Path::new("cards/P01"));
         assert_eq!(note(&[], &place), None);
-        assert_eq!(note(&at(&[0, 6 * 3600]), &place), None, "6 h are not more than 6 h");
+        assert_eq!(note(&times(&[0, 6 * 3600]), &place), None, "6 h are not more than 6 h");
     }
 
     #[test]
     fn a_card_with_two_lists_them() {
         let place = Place::of_card(Path::new("cards/P01"));
-        let problem = note(&at(&[0, 60, 86_400]), &place).unwrap();
-        assert_eq!((problem.code.as_str(), problem.severity), ("two_recordings", Severity::Note));
+        let problem = note(&times(&[0, 60, 86_400]), &place).unwrap();
+        assert_eq!((problem.code.code(), problem.severity), ("two_recordings", Severity::Note));
         let stretches = "1970-01-01T00:00:00Z to 1970-01-01T00:01:00Z (2 images), 1970-01-02T00:00:00Z to 1970-01-02T00:00:00Z (1 image)";
         assert!(problem.fact.ends_with(stretches), "{}", problem.fact);
         let many: Vec<i64> = (0..10).map(|day| day * 86_400).collect();
-        assert!(note(&at(&many), &place).unwrap().fact.ends_with("(1 image), ..."));
+        assert!(note(&times(&many), &place).unwrap().fact.ends_with("(1 image), ..."));
     }
 }

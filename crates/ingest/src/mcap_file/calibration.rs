@@ -4,7 +4,7 @@ use foxglove::messages::CameraCalibration;
 use model::{Camera, LensModel, UtcNs};
 
 use super::CAMERA_FRAME;
-use super::writer::timestamp;
+use super::timestamp;
 
 /// K, D, R, P. R is the identity and P the same as K: one camera, not rectified.
 pub(super) fn calibration(camera: &Camera, time: UtcNs) -> CameraCalibration {

@@ -5,9 +5,12 @@ pub(crate) mod messages;
 pub(crate) mod metadata;
 mod writer;
 
+use foxglove::messages::Timestamp;
+use model::UtcNs;
+
 pub use writer::WriteError;
 pub use writer::is_partial;
-pub(crate) use writer::{Keep, SessionWriter, timestamp};
+pub(crate) use writer::{Keep, SessionWriter};
 
 /// Topics.
 pub(crate) mod topic {
@@ -28,3 +31,13 @@ pub(crate) const SENSOR_CHUNK_BYTES: u64 = 1024 * 1024;
 
 /// No chunk of ours is larger: one image, or sensor messages.
 pub(crate) const LARGEST_CHUNK_BYTES: u64 = crate::card::LARGEST_IMAGE_BYTES + 2 * SENSOR_CHUNK_BYTES;
+
+/// The key of a survey begins with this, so that a survey never passes for the file of its session.
+pub(crate) const SURVEY: &str = "survey:";
+
+/// A time as the messages have it; none after the year 2106, where their 32-bit seconds end. The MCAP's own time goes on to 2262.
+pub(crate) fn timestamp(time: UtcNs) -> Option<Timestamp> {
+    let seconds = u32::try_from(time.0.div_euclid(1_000_000_000)).ok()?;
+    let ns = u32::try_from(time.0.rem_euclid(1_000_000_000)).ok()?;
+    Timestamp::new_checked(seconds, ns)
+}

@@ -5,7 +5,7 @@ use std::ffi::OsStr;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-use foxglove::messages::{CompressedImage, Timestamp};
+use foxglove::messages::CompressedImage;
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{McapError, WriteOptions, Writer};
 use model::{Camera, UtcNs};
@@ -14,7 +14,7 @@ use tempfile::NamedTempFile;
 use super::calibration::calibration;
 use super::messages::{AccelerationBlock, ExtraBlock, ImageFile, RangeBlock};
 use super::metadata::Records;
-use super::{CAMERA_FRAME, SENSOR_CHUNK_BYTES, topic};
+use super::{CAMERA_FRAME, SENSOR_CHUNK_BYTES, timestamp, topic};
 use crate::parse::image_header::Encoding;
 use crate::summary::ImageEntry;
 use crate::timeline::{Block, Times};
@@ -281,11 +281,4 @@ fn wire_times(times: &Times) -> (f64, Vec<u64>) {
             (0.0, times.iter().map(|time| time.0.abs_diff(first)).collect())
         }
     }
-}
-
-/// None after the year 2106, where the message's 32-bit seconds end; the MCAP's own time goes on to 2262.
-pub(crate) fn timestamp(time: UtcNs) -> Option<Timestamp> {
-    let seconds = u32::try_from(time.0.div_euclid(1_000_000_000)).ok()?;
-    let ns = u32::try_from(time.0.rem_euclid(1_000_000_000)).ok()?;
-    Timestamp::new_checked(seconds, ns)
 }

@@ -16,10 +16,9 @@ use std::path::{Path, PathBuf};
 
 use model::{CameraSpec, Problem, UtcNs};
 
-use crate::key::SURVEY;
 use crate::mcap_file::messages::ImageFile;
 use crate::mcap_file::metadata::{Facts, SEAL};
-use crate::mcap_file::topic;
+use crate::mcap_file::{SURVEY, topic};
 use crate::profile::Profile;
 use crate::sample::Sample;
 use crate::summary::{Counts, DroppedImage, ImageEntry};
@@ -200,4 +199,10 @@ impl SessionReader {
         images.sort_by(|(a, _), (b, _)| (a.time, &a.file).cmp(&(b.time, &b.file)));
         Ok(images)
     }
+}
+
+/// Whether `out` is an MCAP file with that key. False for anything that is not such a file.
+#[must_use]
+pub fn ingest_is_current(out: &Path, key: &str) -> bool {
+    SessionReader::open(out).is_ok_and(|reader| reader.metadata().key == key)
 }

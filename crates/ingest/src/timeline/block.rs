@@ -47,7 +47,7 @@ impl Times {
     }
 
     /// Time of sample `i`.
-    pub fn at(&self, i: usize) -> Option<UtcNs> {
+    pub fn time_at(&self, i: usize) -> Option<UtcNs> {
         match self {
             Self::Even { first, step_ns, samples } => (i < *samples).then(|| after(*first, *step_ns, i)),
             Self::Each(times) => times.get(i).copied(),
@@ -56,17 +56,17 @@ impl Times {
 
     /// All of them.
     pub fn each(&self) -> impl Iterator<Item = UtcNs> + '_ {
-        (0..self.len()).filter_map(|i| self.at(i))
+        (0..self.len()).filter_map(|i| self.time_at(i))
     }
 
     /// The first.
     pub fn first(&self) -> UtcNs {
-        self.at(0).unwrap_or(UtcNs(0))
+        self.time_at(0).unwrap_or(UtcNs(0))
     }
 
     /// The last.
     pub fn last(&self) -> UtcNs {
-        self.at(self.len().saturating_sub(1)).unwrap_or(UtcNs(0))
+        self.time_at(self.len().saturating_sub(1)).unwrap_or(UtcNs(0))
     }
 }
 

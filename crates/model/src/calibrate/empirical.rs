@@ -1,4 +1,4 @@
-//! Where only table rows exist: the factor that sizes are off by, as a line in tan(pitch).
+//! Calibration by table rows: the factor by which sizes are wrong, as a line in tan(pitch).
 //!
 //! For heights the line has a meaning: the paper's height of a wall that is H high and overhangs its foot by s is
 //! H' tan(pitch) = H cot(e) tan(pitch) + s tan(pitch), where e is the depression of the ray to the rim, which is close to the
@@ -7,80 +7,81 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::held_out::{HeldOut, leave_one_out};
-use crate::stats::median;
+use crate::stats::{ROBUST_SD, median};
 
-/// One row of a table.
+/// One row of a table, with a size and its truth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// What was measured.
+    /// Name of the object that was measured.
     pub object: String,
-    /// The setup, or session: rows of one share its errors.
+    /// The setup or session: the rows of one setup share its errors.
     pub setup: String,
     /// Pitch of the camera.
     pub pitch_rad: f64,
-    /// What came out.
+    /// The measured size.
     pub predicted_mm: f64,
-    /// The truth.
+    /// The true size.
     pub true_mm: f64,
 }
 
 impl Row {
+    /// The ratio of the measured to the true size.
     fn factor(&self) -> f64 {
         self.predicted_mm / self.true_mm
     }
 }
 
-/// predicted = true (a + b tan(pitch)).
+/// The scale of sizes: predicted = true (a + b tan(pitch)).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scale {
-    /// Factor at level sight.
+    /// The factor for a level view.
     pub a: f64,
-    /// Per tangent of the pitch.
+    /// The slope of the factor, per tangent of the pitch.
     pub b: f64,
-    /// Covariance of a and b.
+    /// The covariance of a and b.
     pub covariance: Matrix2<f64>,
-    /// Robust SD of the rows' factors about the line.
+    /// The robust SD of the rows' factors about the line.
     pub scatter: f64,
-    /// Weight of each row, 1 for those that fit.
+    /// The weight of each row: 1 for rows that lie near the line.
     pub weights: Vec<f64>,
 }
 
 impl Scale {
-    /// The factor at a pitch; none where the line has no positive one.
+    /// The factor at a pitch; `None` where the line gives one that is not well above zero.
     #[must_use]
     pub fn factor_at(&self, pitch_rad: f64) -> Option<f64> {
         Some(self.a + self.b * pitch_rad.tan()).filter(|factor| factor.is_finite() && *factor > SMALLEST_FACTOR)
     }
 }
 
-/// A smaller factor would blow up noise.
+/// A smaller factor is refused, since a division by it would blow up noise.
 const SMALLEST_FACTOR: f64 = 0.05;
 
-/// Why rows do not give a line.
+/// The reason why rows do not give a line.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ScaleError {
-    /// A line and its scatter need more.
+    /// There are fewer than the four rows that a line and its scatter need.
     #[error("{0} rows; a line in tan(pitch) with its scatter needs 4 or more")]
     TooFew(usize),
-    /// All at one pitch.
+    /// All rows have nearly the same pitch.
     #[error("the pitches are all but the same: they do not determine a trend with pitch; use setups 10 degrees apart")]
     OnePitch,
-    /// A row that is no measurement.
+    /// A row is no measurement.
     #[error("a predicted or true size is not a positive number")]
     BadSize,
 }
 
 /// Huber's constant, in robust SDs: 98 % efficiency for Gaussian errors, since rows are few.
 const HUBER: f64 = 1.7;
+/// Bound of the reweighting steps.
 const STEPS: usize = 100;
-/// Tangents of pitch within a smaller SD than this are one pitch.
+/// Pitches count as one when the SD of their tangents is smaller than this.
 const LEAST_SPREAD: f64 = 0.05;
-const ROBUST_SD: f64 = 1.4826;
 
-/// Robust line through the rows' factors: least squares, weighted anew by Huber until it settles.
+/// The robust line through the rows' factors: least squares with Huber's weights, repeated until the line settles.
 ///
 /// # Errors
-/// [`ScaleError`] where the rows do not determine it.
+/// [`ScaleError`] when the rows do not determine the line.
 pub fn fit(rows: &[&Row]) -> Result<Scale, ScaleError> {
     if rows.len() < 4 {
         return Err(ScaleError::TooFew(rows.len()));
@@ -105,10 +106,12 @@ pub fn fit(rows: &[&Row]) -> Result<Scale, ScaleError> {
     Ok(Scale { a: line.x, b: line.y, covariance: inverse * scatter.powi(2), scatter, weights })
 }
 
+/// The row of the design matrix: 1 and tan(pitch).
 fn design(row: &Row) -> Vector2<f64> {
     Vector2::new(1.0, row.pitch_rad.tan())
 }
 
+/// The coefficients (a, b) of the weighted least-squares line, and the inverse of its normal matrix.
 fn weighted_line(rows: &[&Row], weights: &[f64]) -> Result<(Vector2<f64>, Matrix2<f64>), ScaleError> {
     let (mut normal, mut right) = (Matrix2::zeros(), Vector2::zeros());
     for (row, weight) in rows.iter().zip(weights) {
@@ -125,32 +128,33 @@ fn weighted_line(rows: &[&Row], weights: &[f64]) -> Result<(Vector2<f64>, Matrix
     Ok((inverse * right, inverse))
 }
 
-/// What a calibration by rows gives.
+/// The result of a calibration by table rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Empirical {
     /// The line through all rows.
     pub scale: Scale,
-    /// Errors of objects that were left out of the fit.
+    /// The errors of objects that were left out of the fit.
     pub without_object: HeldOut,
-    /// Errors of setups that were left out.
+    /// The errors of setups that were left out of the fit.
     pub without_setup: HeldOut,
-    /// Rows that a decimal point put elsewhere would bring to the line.
+    /// The rows that a shift of the decimal point would bring to the line.
     pub slips: Vec<Slip>,
 }
 
-/// A row that is off by a power of ten.
+/// A slip of the decimal point: a row that is wrong by a factor of ten.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slip {
-    /// Number of the row.
+    /// The number of the row, from 0.
     pub row: usize,
-    /// What its size would have to be multiplied with: 10 or 0.1.
+    /// The factor that puts its size right: 10 or 0.1.
     pub factor: f64,
 }
 
-/// Fits, judges by rows left out, and names slips. Nothing is mended: call it again with rows that are ([`mended`]).
+/// The calibration by these rows: the line, its errors on rows that were left out, and slips of the decimal point. It does not
+/// correct the slips; call it again with the rows of [`mended`].
 ///
 /// # Errors
-/// [`ScaleError`] where the rows do not determine a line.
+/// [`ScaleError`] when the rows do not determine a line.
 pub fn calibrate(rows: &[Row]) -> Result<Empirical, ScaleError> {
     let scale = fit(&rows.iter().collect::<Vec<_>>())?;
     let before: Vec<f64> = rows.iter().map(|row| 100.0 * (row.factor() - 1.0)).collect();
@@ -164,11 +168,12 @@ pub fn calibrate(rows: &[Row]) -> Result<Empirical, ScaleError> {
     Ok(Empirical { scale, without_object, without_setup, slips })
 }
 
-/// A row further off than this, in robust SDs, is looked at.
+/// Only a row that is further off than this, in robust SDs, may be a slip.
 const FAR: f64 = 3.0;
-/// A mended row may be off by this share, however small the scatter.
+/// A mended row may be off by this share, however small the scatter is.
 const NEAR: f64 = 0.1;
 
+/// The rows that are far from the line, and near it after a shift of the decimal point.
 fn slips(rows: &[Row], scale: &Scale) -> Vec<Slip> {
     let off = |row: &Row, factor: f64| (row.factor() * factor - design(row).dot(&Vector2::new(scale.a, scale.b))).abs();
     let slip = |(i, row): (usize, &Row)| {
@@ -179,7 +184,7 @@ fn slips(rows: &[Row], scale: &Scale) -> Vec<Slip> {
     rows.iter().enumerate().filter_map(slip).collect()
 }
 
-/// The rows with slips of the decimal point put right.
+/// The rows with slips of the decimal point corrected.
 #[must_use]
 pub fn mended(rows: &[Row], slips: &[Slip]) -> Vec<Row> {
     let factor = |i: usize| slips.iter().find(|slip| slip.row == i).map_or(1.0, |slip| slip.factor);

@@ -1,24 +1,25 @@
-//! Errors of sizes that a calibration has not seen.
+//! Errors of sizes that were left out of a calibration.
 
 use std::collections::BTreeSet;
 
 use crate::stats::ErrorStats;
 
-/// Root mean square errors in per cent of the truth, before and after a calibration that was fitted without what is judged.
+/// Root mean square errors in per cent of the truth, before and after a calibration that was fitted without the judged sizes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeldOut {
-    /// How many sizes were judged.
+    /// Number of sizes that were judged.
     pub n: usize,
-    /// How many folds there were: objects, or setups.
+    /// Number of folds: of objects, or of setups.
     pub folds: usize,
-    /// Before.
+    /// The error before the calibration.
     pub before_rmse_pct: f64,
-    /// After; none where some fold left too little to fit.
+    /// The error after the calibration; `None` where some fold left too few sizes to fit.
     pub after_rmse_pct: Option<f64>,
 }
 
-/// Leaves out one fold after the other. `fold_of(i)`: the fold of size i. `errors_pct(kept, judged)`: errors of the judged
-/// sizes after a fit to the kept ones; none where those do not determine it.
+/// The errors when one fold after the other is left out; `None` when there are no sizes. `before_pct`: the error of each size
+/// before the calibration. `fold_of(i)`: the fold of size i. `errors_pct(kept, judged)`: the errors of the judged sizes after a
+/// fit to the kept ones, or `None` where those do not determine the fit.
 pub(super) fn leave_one_out<F: Ord>(
     before_pct: &[f64],
     fold_of: impl Fn(usize) -> F,

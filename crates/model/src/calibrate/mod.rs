@@ -1,8 +1,8 @@
-//! Learning a device's biases from a bench with known sizes.
+//! Calibration of a device's biases on a bench with known sizes.
 //!
-//! Two ways, for two sorts of data. With raw readings and marks, [`physical`] corrections: what the mount, the range sensor and
-//! the focal length are off by, for all methods that are exact. With table rows only, [`empirical`] ones: the paper's sizes are
-//! off by a factor a + b tan(pitch), the same for all objects of a setup.
+//! There are two ways, for two sorts of data. Raw readings and marks give [`physical`] corrections, of the mount, the range
+//! sensor and the focal length, for all methods that are exact. Table rows alone give [`empirical`] ones: the paper's sizes are
+//! wrong by a factor a + b tan(pitch), which is the same for all objects of a setup.
 
 pub mod empirical;
 pub mod held_out;

@@ -1,18 +1,19 @@
-//! The one-parameter division model.
+//! The division model with one coefficient.
 
 use nalgebra::{Matrix2, Point2};
 
 use super::{LensError, radius};
 
-/// Fitzgibbon's division model (CVPR 2001): ideal = distorted / (1 + lambda `r_d`^2), `r_d` the *distorted* radius.
+/// Fitzgibbon's division model (CVPR 2001): ideal = distorted / (1 + lambda `r_d`^2), where `r_d` is the *distorted* radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Division {
-    /// Coefficient for radii in focal lengths; negative for a barrel.
+    /// The coefficient for radii in focal lengths; negative for a barrel distortion.
     pub lambda: f64,
 }
 
 impl Division {
-    /// Largest distorted radius with an ideal point: the horizon of a barrel (lambda < 0), the fold of a pincushion.
+    /// The largest distorted radius with an ideal point, in focal lengths: the horizon of a barrel distortion (lambda < 0),
+    /// the fold of a pincushion distortion.
     #[must_use]
     pub fn distorted_limit(&self) -> f64 {
         self.lambda.abs().sqrt().recip()
@@ -33,7 +34,7 @@ impl Division {
         Matrix2::identity() / s - outer * (2.0 * self.lambda / (s * s))
     }
 
-    /// The branch through zero of lambda r r_d^2 - r_d + r = 0.
+    /// The distorted point of an ideal one: the solution of lambda r r_d^2 - r_d + r = 0 on the branch through zero.
     pub(super) fn distort(&self, ideal: Point2<f64>) -> Result<Point2<f64>, LensError> {
         let r = radius(ideal);
         let discriminant = 1.0 - 4.0 * self.lambda * r * r;

@@ -1,4 +1,4 @@
-//! Kannala-Brandt, the fisheye model of OpenCV.
+//! The Kannala-Brandt model, which is OpenCV's fisheye model.
 
 use std::f64::consts::PI;
 
@@ -7,22 +7,22 @@ use nalgebra::{Matrix3x2, Point2, RowVector2, Vector2, Vector3};
 use super::{LensError, radius};
 use crate::polynomial::{evaluate, first_root, solve_increasing};
 
-/// OpenCV's four coefficients (`cv::fisheye`): distorted radius = t (1 + k1 t^2 + k2 t^4 + k3 t^6 + k4 t^8), t the
-/// angle of the ray from the optical axis in radians. Rays beyond 90 degrees are allowed.
+/// The Kannala-Brandt model with the four coefficients of OpenCV's `cv::fisheye`: distorted radius = t (1 + k1 t^2 + k2 t^4
+/// + k3 t^6 + k4 t^8), where t is the angle of the ray from the optical axis in radians. Rays beyond 90 degrees are allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Fisheye {
-    /// t^3.
+    /// Coefficient of t^3.
     pub k1: f64,
-    /// t^5.
+    /// Coefficient of t^5.
     pub k2: f64,
-    /// t^7.
+    /// Coefficient of t^7.
     pub k3: f64,
-    /// t^9.
+    /// Coefficient of t^9.
     pub k4: f64,
 }
 
 impl Fisheye {
-    /// Largest angle from the axis, in radians, of the monotone range.
+    /// The largest angle from the axis, in radians, up to which the distorted radius grows with the angle.
     #[must_use]
     pub fn angle_limit_rad(&self) -> f64 {
         let slope_in_t2 = [1.0, 3.0 * self.k1, 5.0 * self.k2, 7.0 * self.k3, 9.0 * self.k4];
@@ -54,8 +54,8 @@ impl Fisheye {
         Ok(Vector3::new(distorted.x / r * sin, distorted.y / r * sin, cos))
     }
 
-    /// Derivative of [`Self::ray_of_distorted`], whose rays have length 1: along the radius the ray turns by dt/dr, across
-    /// it by sin t / r.
+    /// Derivative of [`Self::ray_of_distorted`] by the distorted point. The rays have length 1: along the radius a ray turns
+    /// by dt/dr, across it by sin(t) / r.
     pub(super) fn ray_by_distorted(
         &self,
         distorted: Point2<f64>,
@@ -73,9 +73,9 @@ impl Fisheye {
         }
         let along = Vector2::new(distorted.x / r, distorted.y / r);
         let across = Vector2::new(-along.y, along.x);
-        let turned = Vector3::new(along.x * cos, along.y * cos, -sin) / slope;
-        let swung = Vector3::new(across.x, across.y, 0.0) * (sin / r);
-        Ok(turned * RowVector2::new(along.x, along.y) + swung * RowVector2::new(across.x, across.y))
+        let by_radius = Vector3::new(along.x * cos, along.y * cos, -sin) / slope;
+        let by_turn = Vector3::new(across.x, across.y, 0.0) * (sin / r);
+        Ok(by_radius * RowVector2::new(along.x, along.y) + by_turn * RowVector2::new(across.x, across.y))
     }
 
     fn distorted_radius(&self, angle_rad: f64) -> f64 {

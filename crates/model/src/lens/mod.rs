@@ -1,7 +1,8 @@
-//! Lens models: between the direction of a ray and the normalised image point where a real lens shows it.
+//! Lens models, which map the direction of a ray to the normalised image point where a real lens shows it, and back.
 //!
-//! Normalised coordinates are image coordinates divided by the focal length: a distortion-free lens shows the ray
-//! (x, y, 1) at (x, y). 'Ideal' (u) is what such a lens would show, 'distorted' (d) what the real one shows.
+//! Normalised coordinates are image coordinates divided by the focal length: a lens without distortion shows the ray
+//! (x, y, 1) at (x, y). The 'ideal' point is where such a lens would show a ray, the 'distorted' point where the real lens
+//! shows it.
 
 mod division;
 mod fisheye;
@@ -15,14 +16,14 @@ pub use radial::Radial;
 
 use nalgebra::{Matrix2, Matrix3x2, Point2, Vector3};
 
-/// How a lens bends rays. All coefficients are for normalised coordinates.
+/// A lens model with its coefficients, all of them for normalised coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LensModel {
     /// No distortion.
     None,
-    /// One radial parameter, the paper's Eq. (3).
+    /// One radial coefficient: the paper's Eq. (3).
     Radial(Radial),
-    /// One-parameter division model: fits wide lenses far better than [`Self::Radial`].
+    /// The division model with one coefficient, which fits wide lenses far better than [`Self::Radial`] does.
     Division(Division),
     /// Brown-Conrady with five coefficients, as in OpenCV and ROS.
     PlumbBob(PlumbBob),
@@ -30,7 +31,7 @@ pub enum LensModel {
     Fisheye(Fisheye),
 }
 
-/// Why a lens has no answer for a point.
+/// The reason why a lens model has no answer for a point.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum LensError {
     /// The ray points sideways or backwards, where this model shows nothing.
@@ -41,9 +42,9 @@ pub enum LensError {
         "no such point: ideal radius {radius:.4} is beyond the lens model's monotone range (limit {limit:.4}, in focal lengths)"
     )]
     IdealBeyondRange {
-        /// Radius asked for, in focal lengths (for a fisheye the angle from the axis, in radians).
+        /// The radius that was asked for, in focal lengths (for a fisheye the angle from the axis, in radians).
         radius: f64,
-        /// Largest radius with an answer.
+        /// The largest radius with an answer, in the same unit.
         limit: f64,
     },
     /// The image point lies outside everything that the model can show.
@@ -51,9 +52,9 @@ pub enum LensError {
         "no such point: image radius {radius:.4} is beyond what the lens model can show (limit {limit:.4}, in focal lengths)"
     )]
     ImageBeyondRange {
-        /// Radius asked for, in focal lengths.
+        /// The radius that was asked for, in focal lengths.
         radius: f64,
-        /// Largest radius with an answer.
+        /// The largest radius with an answer, in focal lengths.
         limit: f64,
     },
     /// The coordinates are not finite numbers.
@@ -62,7 +63,7 @@ pub enum LensError {
 }
 
 impl LensModel {
-    /// Where the lens shows a ray. `ray`: a direction in the camera frame, of any length.
+    /// The normalised image point where the lens shows a ray. `ray`: a direction in the camera frame, of any length.
     ///
     /// # Errors
     /// [`LensError`] when the lens does not show that direction.
@@ -77,7 +78,7 @@ impl LensModel {
             return Err(LensError::NotInFront);
         }
         let ideal = Point2::new(ray.x / ray.z, ray.y / ray.z);
-        finite(match self {
+        require_finite(match self {
             Self::None | Self::Fisheye(_) => ideal,
             Self::Radial(lens) => lens.distort(ideal)?,
             Self::Division(lens) => lens.distort(ideal)?,
@@ -93,7 +94,7 @@ impl LensModel {
         if !distorted.iter().all(|c| c.is_finite()) {
             return Err(LensError::NotFinite);
         }
-        let ideal = finite(match self {
+        let ideal = require_finite(match self {
             Self::None => distorted,
             Self::Radial(lens) => lens.undistort(distorted)?,
             Self::Division(lens) => lens.undistort(distorted)?,
@@ -107,15 +108,15 @@ impl LensModel {
     /// that the derivative belongs to.
     ///
     /// # Errors
-    /// [`LensError`] when no ray is shown there, or the model folds there.
+    /// [`LensError`] when no ray is shown there, or when the model folds there.
     pub fn ray_and_derivative(&self, distorted: Point2<f64>) -> Result<(Vector3<f64>, Matrix3x2<f64>), LensError> {
         let ray = self.ray_of_distorted(distorted)?;
         let ideal = Point2::new(ray.x, ray.y);
         let by_image = match self {
             Self::None => Matrix2::identity(),
-            Self::Radial(lens) => inverse(&lens.distorted_by_ideal(ideal))?,
+            Self::Radial(lens) => finite_inverse(&lens.distorted_by_ideal(ideal))?,
             Self::Division(lens) => lens.ideal_by_distorted(distorted),
-            Self::PlumbBob(lens) => inverse(&lens.jacobian(ideal))?,
+            Self::PlumbBob(lens) => finite_inverse(&lens.jacobian(ideal))?,
             Self::Fisheye(lens) => return Ok((ray, lens.ray_by_distorted(distorted, &ray)?)),
         };
         let mut derivative = Matrix3x2::zeros();
@@ -124,13 +125,13 @@ impl LensModel {
     }
 }
 
-/// Where a lens folds its Jacobian has no inverse.
-fn inverse(forward: &Matrix2<f64>) -> Result<Matrix2<f64>, LensError> {
+/// The inverse of a lens's Jacobian; [`LensError::NotFinite`] where the model folds and there is none.
+fn finite_inverse(forward: &Matrix2<f64>) -> Result<Matrix2<f64>, LensError> {
     forward.try_inverse().filter(|m| m.iter().all(|c| c.is_finite())).ok_or(LensError::NotFinite)
 }
 
-/// Refuses what overflowed: a ray all but sideways, or a coefficient beyond all sense.
-fn finite(point: Point2<f64>) -> Result<Point2<f64>, LensError> {
+/// `point` unless it overflowed, as it does for a ray that is nearly sideways or for a coefficient far too large.
+fn require_finite(point: Point2<f64>) -> Result<Point2<f64>, LensError> {
     if point.iter().all(|c| c.is_finite()) { Ok(point) } else { Err(LensError::NotFinite) }
 }
 

@@ -1,34 +1,34 @@
-//! Brown-Conrady, the 'plumb bob' model of OpenCV and ROS.
+//! The Brown-Conrady model, which OpenCV and ROS call 'plumb bob'.
 
 use nalgebra::{Matrix2, Point2, Vector2};
 
 use super::{LensError, radius};
 use crate::polynomial::{evaluate, first_root, solve_increasing};
 
-/// OpenCV's five coefficients (`calib3d`, 'distCoeffs'): three radial, two tangential.
+/// The Brown-Conrady model with the five coefficients of OpenCV's `distCoeffs`: three radial, two tangential.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PlumbBob {
-    /// Radial, r^2.
+    /// Radial coefficient of r^2.
     pub k1: f64,
-    /// Radial, r^4.
+    /// Radial coefficient of r^4.
     pub k2: f64,
-    /// Tangential, with 2 x y in x.
+    /// Tangential coefficient, with 2 x y in x.
     pub p1: f64,
-    /// Tangential, with 2 x y in y.
+    /// Tangential coefficient, with 2 x y in y.
     pub p2: f64,
-    /// Radial, r^6.
+    /// Radial coefficient of r^6.
     pub k3: f64,
 }
 
-/// Ideal radii beyond this (89.4 degrees from the axis) are not looked for.
+/// The monotone range is not followed beyond this ideal radius, in focal lengths: 89.4 degrees from the axis.
 const WIDEST_IDEAL_RADIUS: f64 = 100.0;
-/// Newton steps; it converges quadratically from the radial solution, so this many are never needed.
+/// Bound of the Newton steps. They converge quadratically from the radial solution, so this many are never needed.
 const MAX_STEPS: usize = 50;
-/// A Newton step that is still too long after this many halvings leads nowhere.
+/// A Newton step that is still too long after this many halvings does not come nearer.
 const MAX_HALVINGS: i32 = 30;
 
 impl PlumbBob {
-    /// Largest ideal radius within which the model is one-to-one for certain.
+    /// The largest ideal radius, in focal lengths, within which the model is certain to be one-to-one.
     ///
     /// The Jacobian is symmetric. Its radial part has the eigenvalues a = 1 + 3 k1 r^2 + 5 k2 r^4 + 7 k3 r^6 (along the
     /// radius) and b = 1 + k1 r^2 + k2 r^4 + k3 r^6 (across); its tangential part has a norm of at most 6 |p| r. While a
@@ -38,7 +38,7 @@ impl PlumbBob {
     pub fn ideal_limit(&self) -> f64 {
         let tangential = self.p1.hypot(self.p2);
         if tangential <= 0.0 {
-            // Where a > 0 up to r, so is its mean over (0, r), which is b.
+            // Where a > 0 up to r, its mean over (0, r), which is b, is above 0 as well.
             let along_in_r2 = [1.0, 3.0 * self.k1, 5.0 * self.k2, 7.0 * self.k3];
             return first_root(&along_in_r2, WIDEST_IDEAL_RADIUS.powi(2)).map_or(WIDEST_IDEAL_RADIUS, f64::sqrt);
         }
@@ -74,7 +74,7 @@ impl PlumbBob {
         }
     }
 
-    /// One step of Newton's method, halved until it comes nearer; none when it cannot.
+    /// The ideal point after one step of Newton's method, halved until it comes nearer; `None` when no step does.
     fn newton_step(&self, ideal: Point2<f64>, distorted: Point2<f64>) -> Option<Point2<f64>> {
         let residual = self.apply(ideal) - distorted;
         let step = self.jacobian(ideal).try_inverse()? * residual;
@@ -83,10 +83,12 @@ impl PlumbBob {
             .find(|candidate| (self.apply(*candidate) - distorted).norm() < residual.norm())
     }
 
+    /// The factor by which the radial terms stretch an ideal point of squared radius `r2`.
     fn radial_factor(&self, r2: f64) -> f64 {
         evaluate(&[1.0, self.k1, self.k2, self.k3], r2)
     }
 
+    /// The distorted point of an ideal one, whether or not it lies in the monotone range.
     fn apply(&self, ideal: Point2<f64>) -> Point2<f64> {
         let (x, y) = (ideal.x, ideal.y);
         let r2 = x * x + y * y;
@@ -97,6 +99,7 @@ impl PlumbBob {
         ideal * self.radial_factor(r2) + tangential
     }
 
+    /// Derivative of the distorted point by the ideal one, which is symmetric.
     pub(super) fn jacobian(&self, ideal: Point2<f64>) -> Matrix2<f64> {
         let (x, y) = (ideal.x, ideal.y);
         let r2 = x * x + y * y;

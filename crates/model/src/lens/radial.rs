@@ -1,24 +1,25 @@
-//! The paper's one-parameter lens.
+//! The paper's lens model, with one radial coefficient.
 
 use nalgebra::{Matrix2, Point2};
 
 use super::{LensError, radius};
 
-/// A radius at the very limit may come out above it by rounding: it then counts as the limit.
+/// A radius at the very limit may exceed it by rounding. Up to this factor it counts as the limit.
 const ROUNDING: f64 = 1.0 + 4.0 * f64::EPSILON;
 
-/// Eq. (3): distorted = ideal (1 + k1 r^2), r the *ideal* radius.
+/// The lens of Eq. (3): distorted = ideal (1 + k1 r^2), where r is the *ideal* radius.
 ///
-/// The paper's `K_c` is per mm^2 on the sensor; in normalised coordinates k1 = `K_c` f^2. (Eq. (4) reuses the letter for
-/// the skew of the pixel grid, which is another parameter.)
+/// The paper's `K_c` is per mm^2 on the sensor; in normalised coordinates k1 = `K_c` f^2. (Eq. (4) uses the same letter
+/// for the skew of the pixel grid, which is another parameter.)
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Radial {
-    /// Coefficient for radii in focal lengths.
+    /// The coefficient for radii in focal lengths.
     pub k1: f64,
 }
 
 impl Radial {
-    /// Largest ideal radius of the monotone range: beyond it the model folds back on itself. Infinite for k1 >= 0.
+    /// The largest ideal radius of the monotone range, in focal lengths: beyond it the model folds back on itself. It is
+    /// infinite for k1 >= 0.
     #[must_use]
     pub fn ideal_limit(&self) -> f64 {
         if self.k1 < 0.0 { (-3.0 * self.k1).sqrt().recip() } else { f64::INFINITY }
@@ -46,8 +47,9 @@ impl Radial {
         Ok(distorted * (self.ideal_radius(r)? / r))
     }
 
-    /// Exact inverse of Eq. (3): the root of k1 r^3 + r = `distorted_radius` on the branch through zero, by the
-    /// trigonometric (k1 < 0) or hyperbolic (k1 > 0) solution of the depressed cubic.
+    /// The ideal radius of a distorted one, by the exact inverse of Eq. (3): the root of k1 r^3 + r =
+    /// `distorted_radius` on the branch through zero, by the trigonometric (k1 < 0) or hyperbolic (k1 > 0) solution of the
+    /// depressed cubic.
     fn ideal_radius(&self, distorted_radius: f64) -> Result<f64, LensError> {
         let s = (3.0 * self.k1.abs()).sqrt();
         let argument = 1.5 * s * distorted_radius;

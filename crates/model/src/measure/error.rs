@@ -1,11 +1,12 @@
-//! Why marks do not give a size.
+//! The reasons why marks do not give a size.
 
 use crate::circle::CircleError;
 use crate::container::Shape;
 use crate::marks::Feature;
+use crate::problem_code::ProblemCode;
 use crate::view::ViewError;
 
-/// Why marks do not give a size.
+/// The reason why marks do not give a size.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum MeasureError {
     /// A marked point has no place on its plane.
@@ -14,9 +15,9 @@ pub enum MeasureError {
     /// An outline does not give a circle.
     #[error("{feature} outline: {source}")]
     Circle {
-        /// Which outline.
+        /// The feature that was outlined.
         feature: Feature,
-        /// Why.
+        /// The reason.
         source: CircleError,
     },
     /// A rim is marked, but its height is not known.
@@ -31,17 +32,17 @@ pub enum MeasureError {
          table to the rim above it, and do not swap the outlines of rim and base"
     )]
     RimBelowFoot,
-    /// A height that a wall seen from above cannot have.
+    /// The wall would be higher than the camera, which sees it from above.
     #[error(
         "a wall {height_mm:.0} mm high would reach above the camera, which is {camera_height_mm:.0} mm above the table"
     )]
     RimAboveCamera {
-        /// The height found.
+        /// The height that the marks give.
         height_mm: f64,
-        /// Height of the camera.
+        /// Height of the camera above the table.
         camera_height_mm: f64,
     },
-    /// The base of a bowl lies under the camera, so that nothing tells its rim's centre from its base's.
+    /// The base of a bowl lies under the camera, so that the centres of rim and base cannot be told apart.
     #[error(
         "the bowl stands under the camera: rim and base share one centre in the picture; use a picture from the side"
     )]
@@ -49,29 +50,29 @@ pub enum MeasureError {
     /// The ends of a line, or two corners, lie on one spot.
     #[error("the marked points lie on one spot: draw the mark again")]
     NoLength,
-    /// A rim polygon of a square or rectangle that is not four corners.
+    /// The rim of a square or rectangle is not outlined by its four corners.
     #[error("rim outline of a {shape}: expected its 4 corners, got {points} points")]
     NotFourCorners {
-        /// The shape.
+        /// The shape of the object.
         shape: Shape,
-        /// How many points there are.
+        /// The number of points of the outline.
         points: usize,
     },
 }
 
 impl MeasureError {
-    /// Stable code, as in the `flags` of the results.
+    /// The stable code of the error, which stands in the `flags` of the results.
     #[must_use]
-    pub fn code(&self) -> &'static str {
+    pub const fn problem_code(&self) -> ProblemCode {
         match self {
-            Self::View(_) => "mark_off_plane",
-            Self::Circle { .. } => "no_circle",
-            Self::NoHeight => "no_height",
-            Self::RimBelowFoot => "rim_below_foot",
-            Self::RimAboveCamera { .. } => "rim_above_camera",
-            Self::BaseUnderCamera => "base_under_camera",
-            Self::NoLength => "no_length",
-            Self::NotFourCorners { .. } => "not_four_corners",
+            Self::View(_) => ProblemCode::MarkOffPlane,
+            Self::Circle { .. } => ProblemCode::NoCircle,
+            Self::NoHeight => ProblemCode::NoHeight,
+            Self::RimBelowFoot => ProblemCode::RimBelowFoot,
+            Self::RimAboveCamera { .. } => ProblemCode::RimAboveCamera,
+            Self::BaseUnderCamera => ProblemCode::BaseUnderCamera,
+            Self::NoLength => ProblemCode::NoLength,
+            Self::NotFourCorners { .. } => ProblemCode::NotFourCorners,
         }
     }
 }

@@ -8,28 +8,29 @@ use crate::sensed::Sensed;
 use crate::source::{PerSource, Source};
 use crate::view::View;
 
-/// Wall height by the paper: Eq. (14), H = tan(pitch) H', where H' is the length along Y, on Z = 0, from the wall's foot to
-/// the rim above it. This uses the depression of the optical axis for every ray.
+/// The height of a wall by the paper's Eq. (14), H = tan(pitch) H', where H' is the length along Y, on Z = 0, from the wall's
+/// foot to the rim above it. This takes the depression of the optical axis for that of every ray.
 ///
 /// # Errors
-/// [`MeasureError`] when an end has no place on the table, or the rim end lies nearer than the foot.
+/// [`MeasureError`] when an end has no place on the table, when the rim end lies nearer than the foot, or when the wall would
+/// reach above the camera.
 pub fn height_by_paper_mm(view: &View, foot_px: Point2<f64>, rim_px: Point2<f64>) -> Result<f64, MeasureError> {
     let (foot, rim) = (view.on_plane(foot_px, 0.0)?, view.on_plane(rim_px, 0.0)?);
     let projected_mm = rim.y - foot.y; // H'
     possible_height(view, view.pose().pitch_rad().tan() * projected_mm) // Eq. (14)
 }
 
-/// Wall height by the rim point's own ray, exact for a vertical wall: H = c (1 - |foot| / |rim|), with distances on
-/// Z = 0 from the point under the camera.
+/// The height of a wall by the ray of its own rim point, which is exact for a vertical wall: H = c (1 - |foot| / |rim|), where
+/// c is the height of the camera, and foot and rim are distances on Z = 0 from the point under the camera.
 ///
 /// # Errors
-/// As [`height_by_paper_mm`].
+/// As of [`height_by_paper_mm`].
 pub fn height_by_ray_mm(view: &View, foot_px: Point2<f64>, rim_px: Point2<f64>) -> Result<f64, MeasureError> {
     let (foot, rim) = (view.on_plane(foot_px, 0.0)?, view.on_plane(rim_px, 0.0)?);
     possible_height(view, view.pose().camera_height_mm() * (1.0 - foot.coords.norm() / rim.coords.norm()))
 }
 
-/// A height above the table and below the camera.
+/// `height_mm`, if it lies above the table and below the camera.
 pub(crate) fn possible_height(view: &View, height_mm: f64) -> Result<f64, MeasureError> {
     let camera_height_mm = view.pose().camera_height_mm();
     if height_mm >= camera_height_mm {
@@ -41,14 +42,14 @@ pub(crate) fn possible_height(view: &View, height_mm: f64) -> Result<f64, Measur
     }
 }
 
-/// A height line's ends, each with the number of its mark.
+/// The ends of a height line, each with the number of its point.
 pub(crate) struct HeightLine {
     pub foot: (usize, Point2<f64>),
     pub rim: (usize, Point2<f64>),
 }
 
 impl HeightLine {
-    /// [`height_by_paper_mm`] with its derivatives.
+    /// The height of [`height_by_paper_mm`] with its derivatives.
     pub(super) fn by_paper(&self, view: &View, points: usize) -> Result<Sensed, MeasureError> {
         let height_mm = height_by_paper_mm(view, self.foot.1, self.rim.1)?;
         let (foot, rim) = (Located::on_plane(view, self.foot.1, 0.0)?, Located::on_plane(view, self.rim.1, 0.0)?);
@@ -62,13 +63,13 @@ impl HeightLine {
         Ok(height)
     }
 
-    /// [`height_by_ray_mm`] with its derivatives.
+    /// The height of [`height_by_ray_mm`] with its derivatives.
     pub(super) fn by_ray(&self, view: &View, points: usize) -> Result<Sensed, MeasureError> {
         let [foot, rim] = self.distances(view, points)?;
-        by_distances(view, &foot, &rim)
+        height_from_distances(view, &foot, &rim)
     }
 
-    /// Distances of foot and rim on Z = 0 from the point under the camera.
+    /// The distances of foot and rim, on Z = 0, from the point under the camera, with their derivatives.
     pub(crate) fn distances(&self, view: &View, points: usize) -> Result<[Sensed; 2], MeasureError> {
         let distance = |(mark, pixel): (usize, Point2<f64>)| {
             let place = Located::on_plane(view, pixel, 0.0)?;
@@ -80,8 +81,9 @@ impl HeightLine {
     }
 }
 
-/// H = c (1 - foot / rim): the rim is seen on Z = 0 scaled by c / (c - H) about the point under the camera.
-pub(super) fn by_distances(view: &View, foot: &Sensed, rim: &Sensed) -> Result<Sensed, MeasureError> {
+/// The height H = c (1 - foot / rim) with its derivatives, from distances on Z = 0 from the point under the camera. About that
+/// point the rim is seen on Z = 0 scaled by c / (c - H), where c is the height of the camera.
+pub(super) fn height_from_distances(view: &View, foot: &Sensed, rim: &Sensed) -> Result<Sensed, MeasureError> {
     let above = camera_height(view, foot.points());
     let ratio = foot.value / rim.value;
     let height_mm = possible_height(view, above.value * (1.0 - ratio))?;
@@ -89,7 +91,7 @@ pub(super) fn by_distances(view: &View, foot: &Sensed, rim: &Sensed) -> Result<S
     Ok(Sensed::of_numbers(height_mm, terms, foot.points()))
 }
 
-/// Height of the camera above the table, c = range sin(pitch), with its derivatives.
+/// The height of the camera above the table, c = range sin(pitch), with its derivatives.
 pub(crate) fn camera_height(view: &View, points: usize) -> Sensed {
     let pose = view.pose();
     let by_pitch = pose.range_mm() * pose.pitch_rad().cos();

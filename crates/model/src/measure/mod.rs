@@ -18,39 +18,40 @@ pub(crate) use numbered::Numbered;
 use round::coaxial;
 use span::Span;
 
-/// One size.
+/// A size that was measured on one picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// Which size.
+    /// The quantity that was measured.
     pub quantity: Quantity,
-    /// The size: mean over the lines or outlines marked for it.
+    /// The value: the mean over the lines or outlines that were marked for it.
     pub predicted_mm: f64,
-    /// Height of the plane that it was measured on; for a height, the table.
+    /// Height of the plane that the size was measured on; for a height that is the table, 0.
     pub plane_z_mm: f64,
-    /// How many lines or outlines were marked for it.
+    /// The number of lines or outlines that were marked for it.
     pub marks: usize,
 }
 
-/// A size with its derivatives.
+/// A measured size with its derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sized {
     pub measured: Measured,
     pub number: Sensed,
-    /// Radius gained per height, where the method tells it.
+    /// Radius of the rim less that of the base, per height, where the method gives it.
     pub wall_slope: Option<f64>,
 }
 
+/// The sizes of one object: each quantity with its size, or with the reason why there is none.
 type Sizes = Vec<(Quantity, Result<Sized, MeasureError>)>;
 
-/// The sizes of one marked object: heights first, then what is measured on the rim plane Z = H (plates: Z = 0, unless
-/// their rim height is known). Several marks of one quantity are averaged.
+/// The sizes of one marked object: heights first, then those on the rim plane Z = H (for plates Z = 0, unless their rim
+/// height is known). Several marks of one quantity are averaged.
 ///
-/// [`Method::Paper`] takes the roll as zero. A known rim height decides the plane; a marked height is then still
-/// measured and returned. [`Method::Coaxial`] gives sizes where rim and base of a round bowl are outlined, and nothing
-/// otherwise; [`Method::Joint`] and [`Method::Best`] need more than one method or picture, and give nothing here.
+/// [`Method::Paper`] takes the roll as zero. A known rim height decides the plane; a marked height is then still measured and
+/// returned. [`Method::Coaxial`] gives sizes where the rim and the base of a round bowl are outlined, and otherwise none.
+/// [`Method::Joint`] needs several pictures and [`Method::Best`] several methods, so they give no sizes here.
 ///
 /// # Errors
-/// One per quantity that is marked but cannot be measured; the other quantities are still returned.
+/// There is one error for each quantity that is marked but cannot be measured; the other quantities are still returned.
 #[must_use]
 pub fn measure(
     view: &View,
@@ -62,7 +63,7 @@ pub fn measure(
     sizes.into_iter().map(|(quantity, size)| (quantity, size.map(|size| size.measured))).collect()
 }
 
-/// The view as a method takes it.
+/// The view that a method works with: [`Method::Paper`] takes the roll as zero.
 pub(crate) fn view_of_method(view: &View, method: Method) -> View {
     match method {
         Method::Paper => View::new(*view.camera(), view.pose().without_roll()),
@@ -70,7 +71,7 @@ pub(crate) fn view_of_method(view: &View, method: Method) -> View {
     }
 }
 
-/// [`measure`] with derivatives, and with the view taken as it is, roll included.
+/// The sizes of [`measure`] with their derivatives, by the view as it is, roll included.
 pub(crate) fn sizes(view: &View, method: Method, container: &Container, marks: &ObjectMarks) -> Sizes {
     let numbered = Numbered::from_marks(marks);
     let height = match method {
@@ -94,7 +95,7 @@ pub(crate) fn sizes(view: &View, method: Method, container: &Container, marks: &
     sizes
 }
 
-/// Diameters, widths and lengths on the rim plane.
+/// The diameters, widths and lengths on the rim plane, whose height is `plane_z`.
 fn sizes_on_plane(
     view: &View,
     shape: Shape,
@@ -105,13 +106,14 @@ fn sizes_on_plane(
         let spans = Span::of_marks(shape, quantity, marks);
         let size = || {
             let plane_z = plane_z.as_ref().map_err(|error| *error)?;
-            let found = spans.iter().map(|span| span.size(view, quantity, plane_z)).collect::<Result<Vec<_>, _>>()?;
-            mean_of(quantity, &found, plane_z.value)
+            let sizes = spans.iter().map(|span| span.size(view, quantity, plane_z)).collect::<Result<Vec<_>, _>>()?;
+            mean_size(quantity, &sizes, plane_z.value)
         };
         (!spans.is_empty()).then(|| (quantity, size()))
     })
 }
 
+/// The mean height of the height lines; `None` when none is marked.
 fn height_of_lines(view: &View, method: Method, marks: &Numbered<'_>) -> Option<Result<Sized, MeasureError>> {
     let heights: Vec<_> = marks
         .height_lines()
@@ -124,24 +126,25 @@ fn height_of_lines(view: &View, method: Method, marks: &Numbered<'_>) -> Option<
         return None;
     }
     let all: Result<Vec<_>, _> = heights.into_iter().collect();
-    Some(all.and_then(|all| mean_of(Quantity::Height, &all, 0.0)))
+    Some(all.and_then(|all| mean_size(Quantity::Height, &all, 0.0)))
 }
 
-/// None where the object is no round bowl with both circles marked.
+/// The height by the circles of rim and base; `None` unless the object is a round bowl with both outlined.
 fn coaxial_height(view: &View, container: &Container, marks: &Numbered<'_>) -> Option<Result<Sized, MeasureError>> {
     if container.kind != Kind::Bowl || container.shape != Shape::Circle {
         return None;
     }
-    let sized = |found: round::Coaxial| Sized {
-        measured: Measured { quantity: Quantity::Height, predicted_mm: found.height.value, plane_z_mm: 0.0, marks: 1 },
-        number: found.height,
-        wall_slope: Some(found.wall_slope),
+    let sized = |bowl: round::Coaxial| Sized {
+        measured: Measured { quantity: Quantity::Height, predicted_mm: bowl.height.value, plane_z_mm: 0.0, marks: 1 },
+        number: bowl.height,
+        wall_slope: Some(bowl.wall_slope),
     };
     Some(coaxial(view, marks)?.map(sized))
 }
 
-fn mean_of(quantity: Quantity, found: &[Sensed], plane_z_mm: f64) -> Result<Sized, MeasureError> {
-    let number = Sensed::mean(found).ok_or(MeasureError::NoLength)?;
-    let measured = Measured { quantity, predicted_mm: number.value, plane_z_mm, marks: found.len() };
+/// The mean of the sizes that several marks of one quantity give.
+fn mean_size(quantity: Quantity, sizes: &[Sensed], plane_z_mm: f64) -> Result<Sized, MeasureError> {
+    let number = Sensed::mean(sizes).ok_or(MeasureError::NoLength)?;
+    let measured = Measured { quantity, predicted_mm: number.value, plane_z_mm, marks: sizes.len() };
     Ok(Sized { measured, number, wall_slope: None })
 }

@@ -1,4 +1,4 @@
-//! The marks of an object, with a number for every marked point.
+//! The marks of an object with a number for every marked point.
 
 use nalgebra::Point2;
 
@@ -6,14 +6,15 @@ use super::height::HeightLine;
 use crate::container::Quantity;
 use crate::marks::{Feature, Mark, ObjectMarks};
 
-/// Marks with the number of their first point: derivatives by marks are kept in the order of those numbers.
+/// The marks of an object, each with the number of its first point. Derivatives by marks stand in the order of the numbers.
 pub(crate) struct Numbered<'a> {
     marks: Vec<(usize, &'a Mark)>,
-    /// How many points there are.
+    /// The number of all points.
     pub points: usize,
 }
 
 impl<'a> Numbered<'a> {
+    /// The marks with their points numbered from 0, in the order of the file.
     pub(crate) fn from_marks(marks: &'a ObjectMarks) -> Self {
         let mut points = 0;
         let number = |mark: &'a Mark| {
@@ -24,7 +25,7 @@ impl<'a> Numbered<'a> {
         Self { marks: marks.marks.iter().map(number).collect(), points }
     }
 
-    /// Lines of a quantity, with the number of their first end.
+    /// The lines of a quantity, each with the number of its first end.
     pub(super) fn lines(&self, wanted: Quantity) -> impl Iterator<Item = (usize, [Point2<f64>; 2])> + '_ {
         self.marks.iter().filter_map(move |(first, mark)| match mark {
             Mark::Line { quantity, ends_px } if *quantity == wanted => Some((*first, *ends_px)),
@@ -32,11 +33,12 @@ impl<'a> Numbered<'a> {
         })
     }
 
+    /// The lines of heights, each from foot to rim.
     pub(crate) fn height_lines(&self) -> impl Iterator<Item = HeightLine> + '_ {
         self.lines(Quantity::Height).map(|(n, [foot, rim])| HeightLine { foot: (n, foot), rim: (n + 1, rim) })
     }
 
-    /// Outlines of a feature, with the number of their first point.
+    /// The outlines of a feature, each with the number of its first point.
     pub(super) fn outlines(&self, wanted: Feature) -> impl Iterator<Item = (usize, &'a [Point2<f64>])> + '_ {
         self.marks.iter().filter_map(move |(first, mark)| match mark {
             Mark::Outline { feature, points_px } if *feature == wanted => Some((*first, points_px.as_slice())),
@@ -44,7 +46,8 @@ impl<'a> Numbered<'a> {
         })
     }
 
-    /// All points along a feature, with their numbers: an edge that something hides in part may be marked in pieces.
+    /// All points along a feature with their numbers, over all its outlines: an edge that is hidden in part may be marked in
+    /// pieces.
     pub(super) fn along(&self, wanted: Feature) -> Vec<(usize, Point2<f64>)> {
         self.outlines(wanted).flat_map(|(first, points)| (first..).zip(points.iter().copied())).collect()
     }

@@ -1,9 +1,9 @@
-//! Circles on level planes, with their derivatives.
+//! Circles on level planes with their derivatives, and the heights that two of them give.
 
 use nalgebra::{Point2, Vector2};
 
 use super::MeasureError;
-use super::height::by_distances;
+use super::height::height_from_distances;
 use super::numbered::Numbered;
 use crate::circle::fit_circle;
 use crate::located::Located;
@@ -11,14 +11,17 @@ use crate::marks::Feature;
 use crate::sensed::Sensed;
 use crate::view::View;
 
-/// A circle fitted to marks on a plane.
+/// A circle that was fitted to marks on a plane, with its derivatives.
 pub(super) struct Round {
+    /// World X and Y of the centre, in mm.
     pub center: [Sensed; 2],
+    /// The radius, in mm.
     pub radius: Sensed,
 }
 
 impl Round {
-    /// The circle through points marked along a level edge, each weighted by what a pixel is worth where it lies.
+    /// The circle through points that were marked along a level edge. Each is weighted by the length that one pixel covers at
+    /// its place.
     pub(super) fn through(
         view: &View,
         feature: Feature,
@@ -44,7 +47,7 @@ impl Round {
         })
     }
 
-    /// Distance of the centre from the point under the camera.
+    /// The distance of the centre from the point under the camera, in mm.
     fn distance(&self) -> Sensed {
         let [x, y] = &self.center;
         let distance_mm = x.value.hypot(y.value);
@@ -55,15 +58,15 @@ impl Round {
 
 /// A round bowl seen as two circles about one vertical axis.
 pub(super) struct Coaxial {
-    /// Height of the rim above the base.
+    /// Height of the rim above the base, in mm.
     pub height: Sensed,
     /// Radius of the rim less that of the base, per height: 0 for a vertical wall.
     pub wall_slope: f64,
 }
 
-/// Rim and base circles about one vertical axis. On Z = 0 the rim is seen scaled by k = c / (c - H) about the point under
-/// the camera, so k = |rim centre| / |base centre| and H = c (1 - 1/k), whatever the wall between them does. None where rim
-/// and base are not both marked.
+/// The bowl whose rim and base are circles about one vertical axis; `None` where not both are outlined. On Z = 0 the rim is
+/// seen scaled by k = c / (c - H) about the point under the camera, where c is the height of the camera. So k = |rim centre| /
+/// |base centre| and H = c (1 - 1/k), whatever the shape of the wall between them.
 pub(super) fn coaxial(view: &View, marks: &Numbered<'_>) -> Option<Result<Coaxial, MeasureError>> {
     let (rim_px, base_px) = (marks.along(Feature::Rim), marks.along(Feature::Base));
     if rim_px.is_empty() || base_px.is_empty() {
@@ -74,15 +77,15 @@ pub(super) fn coaxial(view: &View, marks: &Numbered<'_>) -> Option<Result<Coaxia
         .and_then(|rim| Ok((rim, Round::through(view, Feature::Base, &base_px, &table)?)));
     Some(both.and_then(|(rim, base)| {
         let (rim_distance, base_distance) = (rim.distance(), base.distance());
-        // Under the camera, the distance has no direction, and a first-order uncertainty means nothing.
+        // Under the camera the distance has no direction, and a first-order uncertainty has no meaning.
         if base_distance.value <= UNDER_CAMERA * base.radius.value {
             return Err(MeasureError::BaseUnderCamera);
         }
-        let height = by_distances(view, &base_distance, &rim_distance)?;
+        let height = height_from_distances(view, &base_distance, &rim_distance)?;
         let rim_radius_mm = rim.radius.value * base_distance.value / rim_distance.value;
         Ok(Coaxial { wall_slope: (rim_radius_mm - base.radius.value) / height.value, height })
     }))
 }
 
-/// A base centre nearer to the point under the camera than this share of its radius is under the camera.
+/// A base counts as under the camera when its centre is nearer to the point under the camera than this share of its radius.
 const UNDER_CAMERA: f64 = 0.1;

@@ -1,4 +1,4 @@
-//! Something marked on the rim plane whose extent is a size.
+//! Marks on the rim plane whose extent is a size.
 
 use nalgebra::{Point2, Vector2};
 
@@ -11,23 +11,24 @@ use crate::marks::Feature;
 use crate::sensed::Sensed;
 use crate::view::View;
 
+/// A mark, or a part of one, whose extent on the rim plane is a size. The number is that of its first point.
 pub(super) enum Span<'a> {
     /// The two ends of a size.
     Line(usize, [Point2<f64>; 2]),
     /// Points around a circle.
     Circle(usize, &'a [Point2<f64>]),
-    /// Opposite sides of a quadrilateral.
+    /// The four corners of a square or rectangle.
     Corners(usize, Shape, &'a [Point2<f64>]),
 }
 
-/// A pair of opposite sides: mean length, and its derivative by each corner on the plane.
+/// The mean length of opposite sides, with its derivative by the place of each corner on the plane.
 struct Sides {
     length_mm: f64,
     by_corner: [Vector2<f64>; 4],
 }
 
 impl<'a> Span<'a> {
-    /// What is marked for a quantity: its lines, and the rim's outlines where they give it.
+    /// The spans of a quantity: the lines that are marked for it, and the outlines of the rim where they show it.
     pub(super) fn of_marks(shape: Shape, quantity: Quantity, marks: &Numbered<'a>) -> Vec<Self> {
         let outlines = marks.outlines(Feature::Rim).filter_map(|(first, points)| match (shape, quantity) {
             (Shape::Circle, Quantity::Diameter) => Some(Span::Circle(first, points)),
@@ -39,7 +40,7 @@ impl<'a> Span<'a> {
         marks.lines(quantity).map(|(first, ends)| Span::Line(first, ends)).chain(outlines).collect()
     }
 
-    /// Its size on the plane `plane_z`, with its derivatives.
+    /// The extent on the plane at the height `plane_z`, with its derivatives.
     pub(super) fn size(&self, view: &View, quantity: Quantity, plane_z: &Sensed) -> Result<Sensed, MeasureError> {
         let place = |pixel: Point2<f64>| Located::on_plane(view, pixel, plane_z.value);
         match self {
@@ -70,7 +71,7 @@ impl<'a> Span<'a> {
     }
 }
 
-/// All four sides of a square, the shorter or longer pair of a rectangle.
+/// All four sides of a square; of a rectangle the shorter pair for its width, and the longer pair for its length.
 fn sides(shape: Shape, quantity: Quantity, corners: &[Point2<f64>; 4]) -> Sides {
     let (one, other) = (pair(corners, [(0, 1), (2, 3)]), pair(corners, [(1, 2), (3, 0)]));
     match (shape, quantity) {
@@ -85,14 +86,15 @@ fn sides(shape: Shape, quantity: Quantity, corners: &[Point2<f64>; 4]) -> Sides 
     }
 }
 
+/// A pair of opposite sides, each given by the numbers of its two corners.
 fn pair(corners: &[Point2<f64>; 4], sides: [(usize, usize); 2]) -> Sides {
-    let mut found = Sides { length_mm: 0.0, by_corner: [Vector2::zeros(); 4] };
+    let mut pair = Sides { length_mm: 0.0, by_corner: [Vector2::zeros(); 4] };
     for (from, to) in sides {
         let side = corners[to] - corners[from];
         let direction = side.try_normalize(0.0).unwrap_or_else(Vector2::zeros);
-        found.length_mm += 0.5 * side.norm();
-        found.by_corner[from] -= 0.5 * direction;
-        found.by_corner[to] += 0.5 * direction;
+        pair.length_mm += 0.5 * side.norm();
+        pair.by_corner[from] -= 0.5 * direction;
+        pair.by_corner[to] += 0.5 * direction;
     }
-    found
+    pair
 }

@@ -1,4 +1,4 @@
-//! Values of cells, between Rust types and column types.
+//! The values of cells, and their conversion between Rust types and column types.
 
 use std::str::FromStr;
 
@@ -8,68 +8,68 @@ use crate::fusion::Verdict;
 use crate::results::level::Level;
 use crate::time::UtcNs;
 
-/// Type of a column in the file.
+/// The type of a column in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColumnType {
-    /// UTF-8 text.
+    /// A UTF-8 text.
     Text,
-    /// 64-bit float.
+    /// A 64-bit float.
     Float,
-    /// Unsigned 32-bit integer.
+    /// An unsigned 32-bit integer.
     Count,
-    /// True or false.
+    /// Either true or false.
     Flag,
-    /// Timestamp, nanoseconds, UTC.
+    /// A timestamp in nanoseconds, UTC.
     TimeUtc,
 }
 
-/// One cell.
+/// The value of one cell.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
-    /// Nothing.
+    /// An empty cell.
     Null,
-    /// Text.
+    /// A text.
     Text(String),
-    /// Float.
+    /// A float.
     Float(f64),
-    /// Count.
+    /// A count.
     Count(u32),
-    /// Flag.
+    /// A flag.
     Flag(bool),
-    /// Time.
+    /// A time.
     TimeUtc(UtcNs),
 }
 
-/// A cell that does not fit its column.
+/// The reason why a cell does not fit its column.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CellError {
-    /// Nothing where something must be, or another type.
+    /// The cell is empty where it must not be, or has another type.
     #[error("expected {expected:?}, got {got:?}")]
     Type {
-        /// What the column holds.
+        /// The type of the column.
         expected: ColumnType,
-        /// What was read.
+        /// The value that was read.
         got: Value,
     },
-    /// A text that is none of the column's codes.
+    /// The text is none of the column's codes.
     #[error(transparent)]
     Code(#[from] crate::codes::UnknownCode),
-    /// Fewer cells than columns.
+    /// The row has fewer cells than there are columns.
     #[error("the row ends before this column")]
     Missing,
 }
 
 /// A type that can stand in a column.
 pub trait Cell: Sized {
-    /// Type of the column.
+    /// The type of the column.
     const TYPE: ColumnType;
     /// Whether the cell may be empty.
     const NULLABLE: bool = false;
 
-    /// To the file.
+    /// The value of the cell in the file.
     fn to_value(&self) -> Value;
 
-    /// From the file.
+    /// The Rust value of a cell that was read from the file.
     ///
     /// # Errors
     /// [`CellError`] when the value is of another type, or not a known code.

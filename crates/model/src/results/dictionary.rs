@@ -1,4 +1,4 @@
-//! The data dictionary, docs/results.md, made from the columns.
+//! Documents that are made from the code: the data dictionary, the ledger's reasons and the columns of the truth.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use crate::frame_log::FrameFlag;
 
 use super::{Column, ColumnType, FRAME_COLUMNS, RESULT_COLUMNS, RESULTS_SCHEMA_VERSION, TRUTH_COLUMNS};
 
-/// Markdown of the data dictionary. A test holds docs/results.md against it.
+/// The Markdown of the data dictionary. A test compares docs/results.md with it.
 #[must_use]
 pub fn dictionary_markdown() -> String {
     let mut text = format!(
@@ -33,7 +33,7 @@ pub fn dictionary_markdown() -> String {
     text
 }
 
-/// Markdown of the ledger's reasons, docs/ledger.md. A test holds the file against it.
+/// The Markdown of the ledger's reasons. A test compares docs/ledger.md with it.
 #[must_use]
 pub fn ledger_markdown() -> String {
     let mut text = "# The ledger: why an image was kept or dropped\n\n\
@@ -45,7 +45,7 @@ pub fn ledger_markdown() -> String {
         .to_owned();
     text.push_str(&flow_markdown());
     text.push_str(
-        "\n## Flags\n\nWhat to know about an image's signals (docs/signals.md). A flag drops nothing: it stands in the column \
+        "\n## Flags\n\nWarnings about an image's signals (docs/signals.md). A flag drops nothing: it stands in the column \
          `flags` of the image and of the sizes measured on it. Made from `FrameFlag` in the same file.\n\n\
          | flag | meaning |\n|---|---|\n",
     );
@@ -56,7 +56,7 @@ pub fn ledger_markdown() -> String {
     text
 }
 
-/// Markdown of the columns of `truth.parquet`. A test holds docs/simulate.md against it.
+/// The Markdown of the columns of `truth.parquet`. A test compares docs/simulate.md with it.
 #[must_use]
 pub fn truth_markdown() -> String {
     let mut text = String::new();

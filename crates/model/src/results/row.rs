@@ -1,4 +1,4 @@
-//! The columns.
+//! The rows of `results.parquet` and `frames.parquet`, with one declaration for each column.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,28 +16,28 @@ pub const RESULTS_SCHEMA_VERSION: u32 = 1;
 /// One column of a schema.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Column {
-    /// Name, with the unit where it has one.
+    /// The name, with the unit where there is one.
     pub name: &'static str,
-    /// Type.
+    /// The type of the cells.
     pub column_type: ColumnType,
     /// Whether cells may be empty.
     pub nullable: bool,
-    /// Meaning.
+    /// The meaning, as in the data dictionary.
     pub meaning: &'static str,
 }
 
 /// A row of a file with a fixed schema.
 pub trait Row: Sized {
-    /// Its columns.
+    /// The columns of the file.
     const COLUMNS: &'static [Column];
 
-    /// Its cells, in the order of the columns.
+    /// The cells of the row, in the order of the columns.
     fn values(&self) -> Vec<Value>;
 
     /// The row with these cells.
     ///
     /// # Errors
-    /// The name of the first column whose cell does not fit, and why.
+    /// The name of the first column whose cell does not fit, and the reason.
     fn from_values(values: impl IntoIterator<Item = Value>) -> Result<Self, (&'static str, CellError)>;
 }
 
@@ -150,24 +150,24 @@ schema! {
         raters: u32 = "number of raters with marks on the image",
         sizes: u32 = "number of sizes measured on the image, over raters and methods",
         range_distinct: u32 = "readings of the range sensor behind range_samples: values that it held over several records count once",
-        flags: String = "codes of what to know about the image's signals, joined by commas (docs/ledger.md); empty when there is nothing",
+        flags: String = "codes of warnings about the image's signals, joined by commas (docs/ledger.md); empty when there are none",
         plate_sigma_mm: Option<f64> = "of a selected image: standard uncertainty that a plate of 200 mm would have, marked by its rim where the camera looks, penalised for motion and unsteady range (docs/uncertainty.md)",
         rank: Option<u32> = "rank of a selected image of its session by plate_sigma_mm, 1 being the surest: the ones to mark first",
     }
 }
 
 schema! {
-    /// The columns of `frames.parquet` that the flow of images needs: a year of images is read in a few bytes each.
+    /// The columns of `frames.parquet` that the flow of images needs, so that a year of images is read at a few bytes each.
     FlowRow, FLOW_COLUMNS {
         session: String = "name of the session",
-        reason: FrameReason = "what became of the image",
+        reason: FrameReason = "why the image was kept or dropped",
         raters: u32 = "raters with marks on the image",
         sizes: u32 = "sizes measured on the image",
     }
 }
 
 impl ResultRow {
-    /// A row of level frame, of something round and selected, without any number: to start from where only some columns
+    /// A row of level frame for a round object on a selected image, without any numbers. It is a start where only some columns
     /// matter, as in tests and examples. The names of study, session and rater are empty.
     #[must_use]
     pub fn without_numbers(object: &str, kind: Kind, quantity: Quantity, method: Method) -> Self {
@@ -220,7 +220,7 @@ impl ResultRow {
 }
 
 impl FrameRow {
-    /// A row of an image of which nothing but its name and its reason is known.
+    /// The row of an image of which only the names and the reason are known.
     #[must_use]
     pub fn without_numbers(study: &str, session: &str, image: &str, reason: FrameReason) -> Self {
         Self {

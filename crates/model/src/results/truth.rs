@@ -1,4 +1,4 @@
-//! What is true of a simulated study: the rows of `truth.parquet`.
+//! The truth of a simulated study: the rows of `truth.parquet`.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,7 @@ use super::row::{Column, Row, schema};
 use crate::container::{Kind, Shape};
 use crate::time::UtcNs;
 
-/// Version of the schema of `truth.parquet`; it rises as that of the results does.
+/// Version of the schema of `truth.parquet`. It rises by the same rule as that of the results.
 pub const TRUTH_SCHEMA_VERSION: u32 = 1;
 
 schema! {
@@ -20,7 +20,7 @@ schema! {
         pitch_deg: f64 = "depression of the optical axis below the horizontal",
         roll_deg: f64 = "roll, positive clockwise as the wearer sees it",
         range_mm: f64 = "distance to the table along the optical axis",
-        range_seen_mm: Option<f64> = "what the range sensor's cone would read there without noise, over all that stands in it; empty where the sensor is not modelled so",
+        range_seen_mm: Option<f64> = "what the range sensor's cone would read there without noise, over everything that stands in it; empty where the sensor is not modelled so",
         object: Option<String> = "name of the container, as in objects.csv; empty for an image without one",
         kind: Option<Kind> = "plate, bowl or box",
         shape: Option<Shape> = "circle, square or rectangle",
@@ -30,8 +30,8 @@ schema! {
         true_height_mm: Option<f64> = "from the table to the top; empty for a plate that is drawn flat",
         rim_level_mm: Option<f64> = "height at which the rim is widest: half a rounded edge's thickness below the top",
         center_x_mm: Option<f64> = "where the axis meets the table: to the right of the point under the camera",
-        center_y_mm: Option<f64> = "the same: away from the wearer",
-        turn_deg: Option<f64> = "turn of the long side from that right towards away; 0 for what is round",
+        center_y_mm: Option<f64> = "where the axis meets the table: away from the wearer, from the point under the camera",
+        turn_deg: Option<f64> = "turn of the long side from the direction to the right towards that away from the wearer; 0 for round containers",
         rim_in_picture: Option<f64> = "share of the rim inside the picture, 0 to 1",
         rim_seen: Option<f64> = "share of the rim inside the picture and not hidden by hands or other things",
         marked: bool = "whether the study has marks of it on this image",
@@ -39,7 +39,7 @@ schema! {
 }
 
 impl TruthRow {
-    /// A row of an image without a container.
+    /// The row of an image without a container.
     #[must_use]
     pub fn of_image(session: &str, image: &str, time_utc: UtcNs, [pitch_deg, roll_deg, range_mm]: [f64; 3]) -> Self {
         Self {

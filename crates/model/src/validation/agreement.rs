@@ -1,22 +1,22 @@
-//! How far raters agree.
+//! The agreement of raters.
 
-/// Agreement of raters who all rated all targets.
+/// The agreement of raters who all rated all targets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Agreement {
-    /// How many targets.
+    /// Number of targets.
     pub targets: usize,
-    /// How many raters.
+    /// Number of raters.
     pub raters: usize,
     /// ICC(2,1): two-way random effects, absolute agreement, single rater (Shrout and Fleiss 1979; McGraw and Wong's
     /// ICC(A,1)).
     pub icc: f64,
-    /// Standard error of measurement of a single rater for absolute agreement: root of the variances of raters and of the
-    /// residual, in the unit of the ratings.
+    /// Standard error of measurement of a single rater for absolute agreement: the root of the summed variances of the raters
+    /// and of the residual, in the unit of the ratings.
     pub sem: f64,
 }
 
-/// Agreement of a table with one row per target and one column per rater. None for fewer than two of either, for rows of
-/// different lengths, or where all ratings are alike.
+/// The agreement in a table with one row per target and one column per rater; `None` for fewer than two of either, for rows of
+/// different lengths, for ratings that are not finite, and where all ratings are alike.
 #[must_use]
 #[expect(clippy::cast_precision_loss, reason = "counts of targets and raters are far below 2^53")]
 pub fn agreement(ratings: &[Vec<f64>]) -> Option<Agreement> {
@@ -26,13 +26,13 @@ pub fn agreement(ratings: &[Vec<f64>]) -> Option<Agreement> {
     }
     let (targets, raters) = (n as f64, k as f64);
     let mean = ratings.iter().flatten().sum::<f64>() / (targets * raters);
-    let of_target = |row: &Vec<f64>| row.iter().sum::<f64>() / raters;
-    let of_rater = |j: usize| ratings.iter().map(|row| row[j]).sum::<f64>() / targets;
-    let between_targets = raters * ratings.iter().map(|row| (of_target(row) - mean).powi(2)).sum::<f64>();
-    let between_raters = targets * (0..k).map(|j| (of_rater(j) - mean).powi(2)).sum::<f64>();
+    let target_mean = |row: &Vec<f64>| row.iter().sum::<f64>() / raters;
+    let rater_mean = |j: usize| ratings.iter().map(|row| row[j]).sum::<f64>() / targets;
+    let between_targets = raters * ratings.iter().map(|row| (target_mean(row) - mean).powi(2)).sum::<f64>();
+    let between_raters = targets * (0..k).map(|j| (rater_mean(j) - mean).powi(2)).sum::<f64>();
     let total: f64 = ratings.iter().flatten().map(|x| (x - mean).powi(2)).sum();
     let residual = (total - between_targets - between_raters).max(0.0);
-    // Mean squares of targets, raters and residual.
+    // The mean squares of targets, of raters and of the residual.
     let msr = between_targets / (targets - 1.0);
     let msc = between_raters / (raters - 1.0);
     let mse = residual / ((targets - 1.0) * (raters - 1.0));

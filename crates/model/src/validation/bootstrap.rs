@@ -1,22 +1,22 @@
-//! Intervals by resampling whole clusters.
+//! Confidence intervals by resampling whole clusters.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{RngCore as _, SeedableRng as _};
 
 use super::summary::quantile;
 
-/// An interval.
+/// A confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// Lower end.
+    /// The lower end.
     pub low: f64,
-    /// Upper end.
+    /// The upper end.
     pub high: f64,
 }
 
-/// 95 % percentile interval of a statistic. Errors of one cluster (an object, a participant) are not independent, so clusters
-/// are drawn with replacement, whole (Davison and Hinkley 1997, section 3.8). The same seed gives the same interval. None for
-/// fewer than two clusters, whose scatter nothing tells of.
+/// The 95 % percentile interval of a statistic; `None` for fewer than two clusters, which show no scatter. Errors of one
+/// cluster (an object, a participant) are not independent, so whole clusters are drawn with replacement (Davison and Hinkley
+/// 1997, section 3.8). The same seed gives the same interval.
 #[must_use]
 pub fn bootstrap(
     clusters: &[Vec<f64>],
@@ -33,15 +33,15 @@ pub fn bootstrap(
     for _ in 0..draws {
         sample.clear();
         for _ in 0..clusters.len() {
-            sample.extend_from_slice(&clusters[below(&mut random, clusters.len())]);
+            sample.extend_from_slice(&clusters[random_below(&mut random, clusters.len())]);
         }
         drawn.extend(statistic(&sample));
     }
     (!drawn.is_empty()).then(|| Interval { low: quantile(drawn.clone(), 0.025), high: quantile(drawn, 0.975) })
 }
 
-/// A number below `n`: the high half of a product, whose bias is below n / 2^64.
-fn below(random: &mut ChaCha8Rng, n: usize) -> usize {
+/// A random number below `n`: the high half of a product, whose bias is below n / 2^64.
+fn random_below(random: &mut ChaCha8Rng, n: usize) -> usize {
     let product = u128::from(random.next_u64()) * n as u128;
     usize::try_from(product >> 64).unwrap_or_default()
 }

@@ -1,20 +1,19 @@
-//! Whether intervals hold the truth as often as they say.
+//! The coverage of intervals: whether they contain the truth as often as they claim.
 
-/// Shares of sizes whose intervals hold the truth.
+use super::summary::K_95;
+
+/// The shares of sizes whose intervals contain the truth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coverage {
-    /// How many sizes.
+    /// Number of sizes.
     pub n: usize,
-    /// Share within one standard uncertainty: 68.3 % if it is right.
+    /// Share of errors within one standard uncertainty, 0 to 1: 0.683 if the uncertainty is right.
     pub within_68: f64,
-    /// Share within 1.96: 95 % if it is right.
+    /// Share of errors within 1.96 standard uncertainties: 0.95 if the uncertainty is right.
     pub within_95: f64,
 }
 
-/// 95 % of a Gaussian lie within so many SDs.
-const K_95: f64 = 1.959_963_984_540_054;
-
-/// Coverage of pairs (error, its standard uncertainty). None of none.
+/// The coverage of pairs (error, its standard uncertainty); `None` when there are none.
 #[must_use]
 #[expect(clippy::cast_precision_loss, reason = "a count of sizes is far below 2^53")]
 pub fn coverage(sizes: &[(f64, f64)]) -> Option<Coverage> {

@@ -1,22 +1,22 @@
-//! Two methods on the same marks.
+//! The comparison of two methods on the same marks.
 
 use super::bootstrap::{Interval, bootstrap};
 use crate::stats::ErrorStats;
 
-/// Absolute errors of two methods on the same sizes.
+/// The comparison of two methods' absolute errors on the same sizes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Paired {
-    /// How many sizes both have.
+    /// Number of sizes that both methods gave.
     pub n: usize,
     /// Mean of |first| - |second|: positive where the second is better.
     pub mean_difference: f64,
-    /// Student's t of these differences, n - 1 degrees of freedom; none where they do not scatter.
+    /// Student's t of these differences, with n - 1 degrees of freedom; `None` where they do not scatter.
     pub t: Option<f64>,
-    /// 95 % interval of the mean difference, whole clusters drawn; none of a single cluster.
+    /// 95 % interval of the mean difference, by drawing whole clusters; `None` for a single cluster.
     pub interval: Option<Interval>,
 }
 
-/// Compares pairs of errors, by cluster. None of none.
+/// The comparison of pairs of errors (of the first method, of the second), given by cluster; `None` when there are none.
 #[must_use]
 #[expect(clippy::cast_precision_loss, reason = "a count of sizes is far below 2^53")]
 pub fn paired(clusters: &[Vec<(f64, f64)>], draws: usize, seed: u64) -> Option<Paired> {

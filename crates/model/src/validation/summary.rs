@@ -1,15 +1,15 @@
-//! Signed errors in one line.
+//! The summary of signed errors.
 
 use crate::stats::{ErrorStats, median};
 
-/// Signed errors, in any unit.
+/// The summary of signed errors, in any unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorSummary {
-    /// How many.
+    /// Number of errors.
     pub n: usize,
-    /// Mean.
+    /// Mean of the signed errors.
     pub bias: f64,
-    /// Sample SD; none of a single one.
+    /// Sample SD; `None` for a single error.
     pub sd: Option<f64>,
     /// Root mean square.
     pub rmse: f64,
@@ -17,19 +17,19 @@ pub struct ErrorSummary {
     pub mae: f64,
     /// Median of the signed errors.
     pub median: f64,
-    /// 95 % of the absolute errors are no larger.
+    /// The absolute error that 95 % of the errors do not exceed.
     pub q95_absolute: f64,
     /// Largest absolute error.
     pub max_absolute: f64,
-    /// Limits of agreement, bias -+ 1.96 SD (Bland and Altman, Lancet 1986); none of a single one.
+    /// Limits of agreement, bias -+ 1.96 SD (Bland and Altman, Lancet 1986); `None` for a single error.
     pub limits: Option<[f64; 2]>,
 }
 
-/// 95 % of a Gaussian lie within so many SDs.
-const K_95: f64 = 1.959_963_984_540_054;
+/// 95 % of a Gaussian distribution lie within this many SDs.
+pub(super) const K_95: f64 = 1.959_963_984_540_054;
 
 impl ErrorSummary {
-    /// None of no errors.
+    /// The summary of `errors`; `None` when there are no errors.
     #[must_use]
     pub fn from_errors(errors: &[f64]) -> Option<Self> {
         let stats = ErrorStats::from_errors(errors)?;
@@ -49,7 +49,7 @@ impl ErrorSummary {
 }
 
 /// The value below which the share `p` (0 to 1) of the values lies, linear between neighbours (numpy's default, R's type 7).
-/// Not a number for no values.
+/// NaN when there are no values.
 #[must_use]
 #[expect(clippy::cast_precision_loss, reason = "a count of errors is far below 2^53")]
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place between 0 and the count")]

@@ -1,4 +1,4 @@
-//! Recordings with what was found in them, for viewers: `WORK/annotated/SESSION.annotated.mcap` (docs/viewers.md).
+//! Writes recordings with their marks and sizes, for viewers: `WORK/annotated/SESSION.annotated.mcap` (docs/viewers.md).
 
 mod drawn;
 mod log;
@@ -12,42 +12,42 @@ use ingest::{AnnotateError, Annotating, ByteBudget, ImageEntry, SessionReader};
 use model::{Camera, SessionStatus, Stage};
 
 use crate::inputs::sha256_of_bytes;
+use crate::parallel::{in_parallel, unless_panicking};
 use crate::reporter::{Reporter, Totals};
 use crate::run::{Halted, RunOptions, program_and_commit};
 use crate::session::{SessionOutput, without_host};
-use crate::sessions::{in_parallel, unless_panicking};
 use crate::study::{SessionDir, Study};
 use crate::work::{Kept, WorkError, WorkFolder, annotated_of};
 use notes::Notes;
 
-/// Version of what is written. A change of meaning gives another number, and the files are made anew.
+/// The version of the files. A change of meaning gets another number, and the files are then made anew.
 const ANNOTATE_VERSION: u32 = 1;
-/// A picture counts with so many bytes per pixel while marks are drawn on it.
+/// A picture takes this many bytes per pixel while marks are drawn on it.
 const BYTES_PER_PIXEL: u64 = 4;
 
-/// What was done.
+/// The result of annotating a study.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Annotated {
-    /// Where the files are.
+    /// The folder of the files.
     pub folder: PathBuf,
-    /// Files made.
+    /// The number of files that were made.
     pub made: usize,
-    /// Files that are as they would be made.
+    /// The number of files that are as they would be made.
     pub kept: usize,
-    /// Sessions without a file, and why; those that failed in the run are left out.
+    /// The sessions without a file, and why; those that failed in the run are left out.
     pub failed: Vec<NotAnnotated>,
 }
 
 /// A session without an annotated recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NotAnnotated {
-    /// Its name.
+    /// The name of the session.
     pub session: String,
-    /// Why.
+    /// The reason.
     pub fact: String,
 }
 
-/// What became of one session.
+/// The outcome for one session.
 enum Outcome {
     Made,
     Kept,
@@ -64,17 +64,17 @@ enum Outcome {
 pub fn annotate(study: &Study, options: &RunOptions, reporter: &dyn Reporter) -> Result<Annotated, Halted> {
     let work = WorkFolder::open(&options.work_dir, &options.program)?;
     let folder = work.annotated_dir()?;
-    let all = All {
+    let annotator = Annotator {
         study,
         work: &work,
-        kept: work.state.all()?,
+        kept: work.state.kept_by_session()?,
         program: program_and_commit(&options.program, options.commit.as_deref()),
         budget: ByteBudget::new(options.image_memory_bytes),
         options,
         reporter,
     };
     reporter.begin(&Totals { sessions: study.sessions.len(), ..Totals::default() });
-    let outcomes = in_parallel(&study.sessions, options.jobs, |dir| all.session(dir))?;
+    let outcomes = in_parallel(&study.sessions, options.jobs, |dir| annotator.session(dir))?;
     let mut annotated = Annotated { folder, ..Annotated::default() };
     for outcome in outcomes {
         match outcome {
@@ -93,8 +93,8 @@ pub fn annotate(study: &Study, options: &RunOptions, reporter: &dyn Reporter) ->
     }
 }
 
-/// What the sessions at work share.
-struct All<'a> {
+/// Everything that the sessions at work share.
+struct Annotator<'a> {
     study: &'a Study,
     work: &'a WorkFolder,
     kept: BTreeMap<String, Kept>,
@@ -104,9 +104,9 @@ struct All<'a> {
     reporter: &'a dyn Reporter,
 }
 
-/// Why a session has no file.
+/// The reason why a session has no file.
 #[derive(Debug, thiserror::Error)]
-enum Trouble {
+enum AnnotateFailure {
     #[error(transparent)]
     Work(#[from] WorkError),
     #[error("what was kept of the session cannot be read: {0}; run with --force")]
@@ -121,7 +121,7 @@ enum Trouble {
     Remove(#[from] std::io::Error),
 }
 
-impl All<'_> {
+impl Annotator<'_> {
     fn session(&self, dir: &SessionDir) -> Outcome {
         if self.options.stop.is_set() {
             return Outcome::Stopped;
@@ -134,8 +134,8 @@ impl All<'_> {
         };
         let outcome = match done {
             Ok(Ok(outcome)) => outcome,
-            Ok(Err(Trouble::Annotate(AnnotateError::Stopped))) => Outcome::Stopped,
-            Ok(Err(trouble)) => failed(trouble.to_string()),
+            Ok(Err(AnnotateFailure::Annotate(AnnotateError::Stopped))) => Outcome::Stopped,
+            Ok(Err(failure)) => failed(failure.to_string()),
             Err(problem) => failed(problem.fact),
         };
         if !matches!(outcome, Outcome::Stopped) {
@@ -144,14 +144,14 @@ impl All<'_> {
         outcome
     }
 
-    /// How the session fared in the run, for the progress: one whose file is kept, or cannot be made, is done as well.
+    /// The status of the session for the progress: a session whose file is kept, or cannot be made, is done as well.
     fn status(&self, dir: &SessionDir, outcome: &Outcome) -> SessionStatus {
         let of_run = self.kept.get(&dir.name).and_then(|kept| kept.status.clone());
         let status = of_run.unwrap_or_else(|| SessionStatus { session: dir.name.clone(), ..SessionStatus::default() });
         SessionStatus { failed: status.failed || matches!(outcome, Outcome::Failed(_)), ..status }
     }
 
-    fn annotated(&self, dir: &SessionDir) -> Result<Outcome, Trouble> {
+    fn annotated(&self, dir: &SessionDir) -> Result<Outcome, AnnotateFailure> {
         let out = annotated_of(&self.options.work_dir, &dir.name);
         let Some(key) = self.key(dir)? else {
             return remove(&out).map(|()| Outcome::Nothing);
@@ -168,8 +168,8 @@ impl All<'_> {
         Ok(Outcome::Made)
     }
 
-    /// What the file is made from; none where the session has failed, or was never measured.
-    fn key(&self, dir: &SessionDir) -> Result<Option<String>, Trouble> {
+    /// The key of everything that the file is made from; none where the session has failed, or was never measured.
+    fn key(&self, dir: &SessionDir) -> Result<Option<String>, AnnotateFailure> {
         let Some(kept) = self.kept.get(&dir.name) else { return Ok(None) };
         let failed = kept.status.as_ref().is_none_or(|status| status.failed);
         let (Some(ingest), Some(measure), false) = (&kept.ingest, &kept.measure, failed) else { return Ok(None) };
@@ -177,10 +177,10 @@ impl All<'_> {
         Ok(Some(sha256_of_bytes(&serde_json::to_vec(&parts)?)))
     }
 
-    fn write(&self, dir: &SessionDir, output: &SessionOutput, key: &str, out: &Path) -> Result<(), Trouble> {
+    fn write(&self, dir: &SessionDir, output: &SessionOutput, key: &str, out: &Path) -> Result<(), AnnotateFailure> {
         let recording = self.work.mcap(&dir.name);
         let camera = self.camera(output, &recording)?;
-        let notes = Notes::of(output);
+        let notes = Notes::from_output(output);
         let what = Annotating {
             recording: &recording,
             out,
@@ -197,7 +197,7 @@ impl All<'_> {
             }
             let mut noted = notes.of_image(image);
             if noted.view.is_some() && !noted.marks.is_empty() {
-                let _taken = self.budget.take(room(image));
+                let _taken = self.budget.take(bytes_in_memory(image));
                 match drawn::drawn(&noted, jpeg) {
                     Ok(drawn) => noted.drawn_jpeg = Some(drawn),
                     Err(fact) => tracing::warn!(session = dir.name, "nothing is drawn on {}: {fact}", image.file),
@@ -209,8 +209,8 @@ impl All<'_> {
         Ok(())
     }
 
-    /// The camera that sizes were measured with, or that of the recording where there are none.
-    fn camera(&self, output: &SessionOutput, recording: &Path) -> Result<Camera, Trouble> {
+    /// The camera that sizes were measured with, or that of the recording where there are no sizes.
+    fn camera(&self, output: &SessionOutput, recording: &Path) -> Result<Camera, AnnotateFailure> {
         match &output.shown.camera {
             Some(spec) => Ok(spec.camera()?),
             None => Ok(SessionReader::open(recording)?.metadata().camera.camera()?),
@@ -218,12 +218,12 @@ impl All<'_> {
     }
 }
 
-fn room(image: &ImageEntry) -> u64 {
+fn bytes_in_memory(image: &ImageEntry) -> u64 {
     image.bytes + BYTES_PER_PIXEL * u64::from(image.width_px) * u64::from(image.height_px)
 }
 
-/// A file of an earlier run says what is no longer so.
-fn remove(file: &Path) -> Result<(), Trouble> {
+/// Removes a file of an earlier run, whose content no longer holds.
+fn remove(file: &Path) -> Result<(), AnnotateFailure> {
     match std::fs::remove_file(file) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error.into()),
         _ => Ok(()),

@@ -1,4 +1,4 @@
-//! What a run would lose, before it: every stage that needs no pictures, and nothing stored.
+//! Tells before a run what it would lose: goes through every stage that needs no pictures, and stores nothing.
 
 mod sizes;
 
@@ -7,38 +7,38 @@ use std::collections::BTreeSet;
 
 use model::{Problem, SessionStatus, Stage, StudyFlow};
 
+use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
 use crate::session::{SessionOutput, failed, run_session};
-use crate::sessions::unless_panicking;
 use crate::study::Study;
 use crate::survey::{Survey, SurveyError, SurveyOptions};
 use sizes::Measured;
 
-/// What a check found.
+/// The result of a check.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checked {
     /// How each session would fare, in the order of the names.
     pub sessions: Vec<SessionStatus>,
-    /// What would become of the images.
+    /// The numbers of images at each step, kept and dropped.
     pub flow: StudyFlow,
-    /// What concerns the study as a whole: objects without a size, tables that would stay empty.
+    /// Problems of the study as a whole: objects without a size, tables that would stay empty.
     pub study: Vec<Problem>,
 }
 
-/// Goes the road of [`run`](crate::run) for every session, with the same problems, without pictures and without results.
-/// Cards are read whole, since damage shows nowhere else; what is written goes into a temporary folder. Of the rows only
-/// counts are kept.
+/// Does for every session what [`run()`](crate::run()) does, with the same problems, but without pictures and without
+/// results. Cards are read whole, since damage shows nowhere else; what is written goes into a temporary folder. Only counts
+/// are kept of the rows.
 ///
 /// # Errors
 /// [`SurveyError`] for what concerns the check as a whole.
 pub fn check(study: &Study, options: &SurveyOptions, reporter: &dyn Reporter) -> Result<Checked, SurveyError> {
     let survey = Survey::new(options)?;
-    let parts = survey.each(study, options.jobs, reporter, |dir| {
+    let parts = survey.for_each_session(study, options.jobs, reporter, |dir| {
         let road = || run_session(study, dir, &survey.options, reporter);
         let output = unless_panicking(dir, &Cell::new(Stage::Study), road);
         let output = output.unwrap_or_else(|problem| failed(study, dir, problem));
         reporter.done(&output.status);
-        Part::of(output)
+        Part::from_output(output)
     })?;
     let mut checked = Checked { sessions: Vec::new(), flow: StudyFlow::default(), study: Vec::new() };
     let mut measured = BTreeSet::new();
@@ -51,7 +51,7 @@ pub fn check(study: &Study, options: &SurveyOptions, reporter: &dyn Reporter) ->
     Ok(checked)
 }
 
-/// What is kept of a session.
+/// The part of a session's output that is kept.
 struct Part {
     status: SessionStatus,
     flow: StudyFlow,
@@ -59,10 +59,10 @@ struct Part {
 }
 
 impl Part {
-    fn of(output: SessionOutput) -> Self {
+    fn from_output(output: SessionOutput) -> Self {
         let mut flow = StudyFlow::default();
         output.frames.iter().for_each(|frame| flow.add(frame));
-        let measured = output.results.iter().filter_map(Measured::of).collect();
+        let measured = output.results.iter().filter_map(Measured::from_row).collect();
         Self { status: output.status, flow, measured }
     }
 }

@@ -1,4 +1,4 @@
-//! A drawing and its label become marks of a LabelMe file.
+//! Converts a drawing and its label into marks of a LabelMe file.
 
 use super::foreign::{Annotation, Drawn, Ellipse, Form, NamedPoint};
 use super::label::{Meaning, Names, What};
@@ -6,10 +6,10 @@ use super::named;
 
 /// A mark as LabelMe has it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Made {
-    /// `OBJECT/WHAT`.
+pub struct ConvertedMark {
+    /// The label, `OBJECT/WHAT`.
     pub label: String,
-    /// LabelMe's word: line, polygon, linestrip or points.
+    /// The type in LabelMe's words: line, polygon, linestrip or points.
     pub shape_type: &'static str,
     /// The points, as the tool had them.
     pub points_px: Vec<[f64; 2]>,
@@ -19,23 +19,23 @@ pub struct Made {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Converted {
     /// The marks.
-    pub made: Vec<Made>,
-    /// What was left out of them by the rules of docs/marks.md.
+    pub marks: Vec<ConvertedMark>,
+    /// Notes on points that were left out by the rules of docs/marks.md.
     pub notes: Vec<String>,
 }
 
-/// Points of an ellipse. It was set by 5 numbers: more points would feign that somebody marked each of them.
+/// The number of points of an ellipse. It was set by 5 numbers: more points would feign that somebody marked each of them.
 const ELLIPSE_POINTS: u32 = 8;
 const FEWEST_ELLIPSE_POINTS: usize = 5;
 
-/// Tools round, and let a point lie on the border; further out nobody saw anything.
+/// Tools round, and let a point lie on the border; further out nobody can have seen anything.
 const OUTSIDE_PX: f64 = 1.0;
 
-/// What an annotation means. `picture_px`: width and height of the picture; `with_hidden`: points are taken that are marked
-/// as hidden.
+/// The marks that an annotation means. `picture_px` is the width and height of the picture; `with_hidden` says whether
+/// points that are marked as hidden are taken.
 ///
 /// # Errors
-/// Why it gives no marks: expected and got.
+/// The reason why it gives no marks: what was expected, and what was there.
 pub fn marks_of(
     annotation: &Annotation,
     names: &Names,
@@ -53,18 +53,18 @@ pub fn marks_of(
         Drawn::Unusable(fact) => return Err(fact.clone()),
     };
     let outside = |point: &&[f64; 2]| !is_within(**point, picture_px);
-    if let Some([x, y]) = converted.made.iter().flat_map(|made| &made.points_px).find(outside) {
+    if let Some([x, y]) = converted.marks.iter().flat_map(|mark| &mark.points_px).find(outside) {
         let [width, height] = picture_px;
         return Err(format!("a point at {x}, {y}: expected points in the picture, of {width} x {height} px"));
     }
     Ok(converted)
 }
 
-fn one(made: Made) -> Converted {
-    Converted { made: vec![made], notes: Vec::new() }
+fn one(mark: ConvertedMark) -> Converted {
+    Converted { marks: vec![mark], notes: Vec::new() }
 }
 
-/// False for numbers that are none.
+/// Whether a point lies in the picture; false for numbers that are not finite.
 fn is_within(point: [f64; 2], [width, height]: [u32; 2]) -> bool {
     let within = |at: f64, size: u32| (-OUTSIDE_PX..=f64::from(size) + OUTSIDE_PX).contains(&at);
     within(point[0], width) && within(point[1], height)
@@ -81,7 +81,7 @@ fn label(object: &str, what: What) -> String {
     format!("{object}/{}", what.code())
 }
 
-fn points(meaning: &Meaning, form: Form, points_px: &[[f64; 2]]) -> Result<Made, String> {
+fn points(meaning: &Meaning, form: Form, points_px: &[[f64; 2]]) -> Result<ConvertedMark, String> {
     let what = what_of(meaning)?;
     let shape_type = match (what, form) {
         (What::Line(_), Form::Polyline | Form::Loose) if points_px.len() == 2 => "line",
@@ -96,7 +96,7 @@ fn points(meaning: &Meaning, form: Form, points_px: &[[f64; 2]]) -> Result<Made,
         (What::Outline(_), Form::Polyline) => "linestrip",
         (What::Outline(_), Form::Loose) => "points",
     };
-    Ok(Made { label: label(&meaning.object, what), shape_type, points_px: points_px.to_vec() })
+    Ok(ConvertedMark { label: label(&meaning.object, what), shape_type, points_px: points_px.to_vec() })
 }
 
 impl Form {
@@ -109,8 +109,8 @@ impl Form {
     }
 }
 
-/// Where an ellipse runs over the border, nobody saw it: those points are left out.
-fn outline_of(meaning: &Meaning, ellipse: &Ellipse, picture_px: [u32; 2]) -> Result<Made, String> {
+/// The outline of an ellipse. Where it runs over the border nobody saw it, so those points are left out.
+fn outline_of(meaning: &Meaning, ellipse: &Ellipse, picture_px: [u32; 2]) -> Result<ConvertedMark, String> {
     let what = what_of(meaning)?;
     let What::Outline(_) = what else {
         return Err(format!("expected a polyline with 2 points for {}, got an ellipse", what.code()));
@@ -123,7 +123,7 @@ fn outline_of(meaning: &Meaning, ellipse: &Ellipse, picture_px: [u32; 2]) -> Res
             "an ellipse of which only {kept} points of {all} lie in the picture: mark what is seen of it"
         ));
     }
-    Ok(Made { label: label(&meaning.object, what), shape_type: "points", points_px })
+    Ok(ConvertedMark { label: label(&meaning.object, what), shape_type: "points", points_px })
 }
 
 fn marks_of_named(meaning: &Meaning, points: &[NamedPoint], with_hidden: bool) -> Result<Converted, String> {
@@ -136,10 +136,14 @@ fn marks_of_named(meaning: &Meaning, points: &[NamedPoint], with_hidden: bool) -
         }
         if !taken.is_empty() {
             let shape_type = if matches!(group.what, What::Line(_)) { "line" } else { "points" };
-            converted.made.push(Made { label: label(&meaning.object, group.what), shape_type, points_px: taken });
+            converted.marks.push(ConvertedMark {
+                label: label(&meaning.object, group.what),
+                shape_type,
+                points_px: taken,
+            });
         }
     }
-    if converted.made.is_empty() && converted.notes.is_empty() {
+    if converted.marks.is_empty() && converted.notes.is_empty() {
         return Err("none of its points is marked as there".to_owned());
     }
     Ok(converted)

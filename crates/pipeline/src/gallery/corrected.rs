@@ -4,7 +4,7 @@ use ingest::Picture;
 use model::{Camera, LensModel};
 use nalgebra::{Point2, Vector3};
 
-use super::marks::{Marked, placed};
+use super::carried_marks::{MarkedPicture, carried};
 use super::resample::resample;
 use super::small::SIDE_PX;
 use crate::session::ShownImage;
@@ -12,17 +12,17 @@ use crate::session::ShownImage;
 /// A wide lens is cut rather than shown smaller than this beside the picture as it was taken.
 const LEAST_ZOOM: f64 = 0.5;
 
-/// None where the camera shows nothing in front of it.
-pub(super) fn of(source: &Picture, camera: &Camera, shown: &ShownImage) -> Option<Marked> {
+/// The corrected picture with its marks; none where the camera shows nothing in front of it.
+pub(super) fn undistort(source: &Picture, camera: &Camera, shown: &ShownImage) -> Option<MarkedPicture> {
     let straight = straight(camera)?;
     let picture = resample(source, straight.size_px(), |x, y| {
         camera.pixel_of(&straight.ray_through(Point2::new(x, y)).ok()?).ok()
     });
-    let marks = placed(shown, |[x, y]| {
+    let marks = carried(shown, |[x, y]| {
         let ray = camera.ray_through(Point2::new(x, y)).ok().filter(|ray| ray.z > 0.0)?;
         straight.pixel_of(&ray).ok().map(|point| [point.x, point.y])
     });
-    Some(Marked { picture, marks })
+    Some(MarkedPicture { picture, marks })
 }
 
 /// A camera without distortion whose picture holds the middles of the borders.

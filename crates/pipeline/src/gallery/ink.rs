@@ -1,4 +1,4 @@
-//! Lines and letters on a small picture.
+//! Draws lines and letters on a small picture.
 
 use embedded_graphics::Drawable as _;
 use embedded_graphics::mono_font::{MonoTextStyle, MonoTextStyleBuilder, ascii};
@@ -8,27 +8,27 @@ use ingest::Picture;
 
 use crate::overlay::{Canvas, pixel};
 
-/// Blue and yellow are seen on white plates and on dark tables; the line takes turns.
+/// The colours of the dashes, in turns: blue shows on white plates, yellow on dark tables.
 const DASHES: [[u8; 3]; 2] = [[0, 90, 180], [250, 230, 60]];
 const DASH_PX: usize = 4;
-/// Share of the line's own colour.
+/// The share of the line's own colour, in per cent.
 const WEIGHT: u32 = 60;
 
-/// A dashed line down the picture at `x`, through which it is seen.
-pub(super) fn down(picture: &mut Picture, x: f64) {
+/// Draws a dashed line down the picture at `x`, through which the picture shows.
+pub(super) fn dashed_vertical(picture: &mut Picture, x: f64) {
     for y in 0..picture.height_px as usize {
         blend(picture, whole(x), Some(y), y);
     }
 }
 
-/// A dashed line across the picture at `y`.
-pub(super) fn across(picture: &mut Picture, y: f64) {
+/// Draws a dashed line across the picture at `y`.
+pub(super) fn dashed_horizontal(picture: &mut Picture, y: f64) {
     for x in 0..picture.width_px as usize {
         blend(picture, Some(x), whole(y), x);
     }
 }
 
-/// A line of text (ASCII) that begins at `place`, on its base line. What lies outside is cut off.
+/// Draws a line of text (ASCII) that begins at `place`, on its base line. What lies outside is cut off.
 pub(super) fn letters(picture: &mut Picture, [x, y]: [f64; 2], text: &str) {
     let style: MonoTextStyle<'_, Rgb888> = MonoTextStyleBuilder::new()
         .font(&ascii::FONT_6X10)
@@ -65,11 +65,11 @@ mod tests {
     fn what_lies_outside_is_cut_off() {
         let mut picture = Picture { width_px: 20, height_px: 10, rgb: vec![200; 600] };
         for place in [-3.0, 400.0, f64::NAN] {
-            down(&mut picture, place);
-            across(&mut picture, place);
+            dashed_vertical(&mut picture, place);
+            dashed_horizontal(&mut picture, place);
         }
         assert_eq!(picture.rgb, vec![200; 600]);
-        down(&mut picture, 3.2);
+        dashed_vertical(&mut picture, 3.2);
         let changed: Vec<usize> = (0..200).filter(|at| picture.rgb[3 * at] != 200).map(|at| at % 20).collect();
         assert_eq!(changed, vec![3; 10]);
         letters(&mut picture, [15.0, 12.0], "outside");

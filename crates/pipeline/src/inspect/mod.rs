@@ -1,6 +1,6 @@
-//! What is in a recording: channels, rates, gaps, clocks, pitch, range and images, as numbers.
+//! Shows the content of a recording as numbers: channels, rates, gaps, clocks, pitch, range and images.
 //!
-//! Each sensor is streamed once; what is kept does not grow with the recording, but for its list of images.
+//! Each sensor is streamed once. What is kept does not grow with the recording, apart from its list of images.
 
 mod acceleration;
 mod channels;
@@ -15,11 +15,11 @@ use std::cell::Cell;
 use std::path::Path;
 
 use ingest::{ReadError, SessionReader};
-use model::{Problem, SessionStatus, Severity, Stage};
+use model::{Problem, ProblemCode, SessionStatus, Severity, Stage};
 
+use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
-use crate::session::{Prepared, ingest_unkept, without_host};
-use crate::sessions::unless_panicking;
+use crate::session::{Prepared, ingest_without_state, without_host};
 use crate::study::{SessionDir, Study};
 use crate::survey::{Survey, SurveyError, SurveyOptions};
 
@@ -32,25 +32,26 @@ pub use images::{DroppedImages, ImageFacts};
 pub use local_time::{LocalSpan, LocalTimeChange, Moment};
 pub use range::RangeFacts;
 
-/// What is in the MCAP file of a session. `mount_pitch_deg`: camera pitch minus sensor pitch, if not the profile's.
+/// The content of the MCAP file of a session. `mount_pitch_deg`: camera pitch minus sensor pitch, if it is not the
+/// profile's.
 ///
 /// # Errors
 /// [`ReadError`] when the file cannot be read, is damaged, or is not of this program.
 pub fn inspect_file(path: &Path, mount_pitch_deg: Option<f64>) -> Result<SessionFacts, ReadError> {
-    facts::of(&mut SessionReader::open(path)?, mount_pitch_deg)
+    facts::read(&mut SessionReader::open(path)?, mount_pitch_deg)
 }
 
 /// One session of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inspected {
-    /// Name of the session.
+    /// The name of the session.
     pub session: String,
-    /// What is in it, or why nothing of it can be used.
+    /// The content of its recording, or the problem by which nothing of it can be used.
     pub facts: Result<SessionFacts, Problem>,
 }
 
-/// What is in the cards of a study, in the order of the sessions' names. Cards are read whole; what is written goes into a
-/// temporary folder.
+/// The content of the cards of a study, in the order of the sessions' names. Cards are read whole; what is written goes into
+/// a temporary folder.
 ///
 /// # Errors
 /// [`SurveyError`] for what concerns all sessions.
@@ -60,7 +61,7 @@ pub fn inspect_study(
     reporter: &dyn Reporter,
 ) -> Result<Vec<Inspected>, SurveyError> {
     let survey = Survey::new(options)?;
-    let inspected = survey.each(study, options.jobs, reporter, |dir| {
+    let inspected = survey.for_each_session(study, options.jobs, reporter, |dir| {
         let stage = Cell::new(Stage::Ingest);
         let facts = unless_panicking(dir, &stage, || inspect_session(study, dir, &survey, reporter));
         let facts = facts.and_then(|facts| facts);
@@ -82,7 +83,7 @@ fn inspect_session(
         Problem { fact, ..problem }
     };
     let prepared = Prepared::new(study, dir, &survey.options.program);
-    let mcap = prepared.and_then(|prepared| ingest_unkept(&prepared, &survey.options, reporter));
+    let mcap = prepared.and_then(|prepared| ingest_without_state(&prepared, &survey.options, reporter));
     reporter.stage(&dir.name, Stage::Signals);
     let facts = mcap.and_then(|mcap| {
         inspect_file(&mcap, study.spec.mount.pitch_offset_deg).map_err(|error| unreadable(dir, &error))
@@ -96,7 +97,7 @@ fn unreadable(dir: &SessionDir, error: &ReadError) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Signals,
-        code: "bad_mcap".to_owned(),
+        code: ProblemCode::BadMcap,
         place: format!("mcap/{}.mcap", dir.name),
         fact: error.to_string(),
         remedy: "check free space and permissions of the temporary folder (TMPDIR)".to_owned(),

@@ -1,45 +1,45 @@
-//! Plans of sessions, made and carried out in parallel.
+//! Makes the plans of sessions and carries them out, several at a time.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use ingest::ByteBudget;
 
-use super::plan::{Common, SessionPlan};
+use super::plan::{RunContext, SessionPlan};
 use super::tally::Tally;
-use super::worker::{Done, Worker};
+use super::worker::{SessionDone, Worker};
 use super::{Halted, RunOptions};
+use crate::parallel::in_parallel;
 use crate::reporter::Reporter;
-use crate::sessions::in_parallel;
 use crate::study::SessionDir;
 use crate::work::WorkFolder;
 
-/// What all sessions of a run share.
-pub(super) struct All<'a> {
-    pub common: &'a Common<'a>,
+/// A batch of sessions that are run together, and what they share.
+pub(super) struct Batch<'a> {
+    pub context: &'a RunContext<'a>,
     pub work: &'a WorkFolder,
     pub options: &'a RunOptions,
     pub reporter: &'a dyn Reporter,
 }
 
-impl<'a> All<'a> {
-    /// Looks at sessions. What an earlier run kept does not count when all is to be done again.
+impl<'a> Batch<'a> {
+    /// The plans for the sessions. What an earlier run has kept does not count when everything is to be done again.
     pub fn plan(&self, dirs: &[&'a SessionDir]) -> Result<Vec<SessionPlan<'a>>, Halted> {
-        let kept = if self.options.force { BTreeMap::new() } else { self.work.state.all()? };
+        let kept = if self.options.force { BTreeMap::new() } else { self.work.state.kept_by_session()? };
         let plans = in_parallel(dirs, self.options.jobs, |dir| {
             let kept = kept.get(&dir.name).cloned().unwrap_or_default();
-            self.common.plan(dir, kept, Some(&self.work.state), &self.work.mcap(&dir.name))
+            self.context.plan(dir, kept, Some(&self.work.state), &self.work.mcap(&dir.name))
         })?;
         Ok(plans)
     }
 
-    /// Does what the plans say. What is done is kept, whatever comes after.
+    /// Carries the plans out. What is done is kept, whatever comes after.
     pub fn carry_out(&self, plans: &[SessionPlan<'a>]) -> Result<Tally, Halted> {
         let (current, to_do): (Vec<_>, Vec<_>) = plans.iter().partition(|plan| plan.current.all());
         let stop = &self.options.stop;
         let budget = ByteBudget::new(self.options.image_memory_bytes);
         let worker = Worker {
-            common: self.common,
+            context: self.context,
             work: self.work,
             force: self.options.force,
             stop,
@@ -58,7 +58,7 @@ impl<'a> All<'a> {
                 None
             })
         })?;
-        let done: Vec<Done> = done.into_iter().flatten().collect();
+        let done: Vec<SessionDone> = done.into_iter().flatten().collect();
         if let Some(halted) = halted.into_inner().unwrap_or_else(PoisonError::into_inner) {
             return Err(halted);
         }
@@ -71,8 +71,8 @@ impl<'a> All<'a> {
         }
     }
 
-    /// Tells that a session is done; an error where it failed and the run is to stop then.
-    fn unless_failed(&self, done: Option<Done>) -> Result<Option<Done>, Halted> {
+    /// Reports that a session is done; an error where it failed and the run is to stop then.
+    fn unless_failed(&self, done: Option<SessionDone>) -> Result<Option<SessionDone>, Halted> {
         let Some(done) = done else { return Ok(None) };
         self.reporter.done(&done.status);
         match done.status.problems.first() {

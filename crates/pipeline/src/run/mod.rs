@@ -1,4 +1,4 @@
-//! All sessions of a study, in parallel, into a sink; what an earlier run has done is not done again.
+//! Runs all sessions of a study in parallel and hands their rows to a sink. What an earlier run has done is not done again.
 
 mod carry_out;
 mod error;
@@ -19,27 +19,27 @@ use model::{ResultSink, RunLog, SessionStatus, StageLog};
 use crate::reporter::{Reporter, Totals};
 use crate::study::Study;
 use crate::work::WorkFolder;
-use carry_out::All;
+use carry_out::Batch;
 pub use error::{Halted, RunError};
 pub use options::RunOptions;
 pub(crate) use options::program_and_commit;
-use plan::Common;
 pub use plan::Current;
+use plan::RunContext;
 pub use status::{SessionState, StudyState, status};
 use write::Writing;
 
-/// What a run did.
+/// The result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ran {
-    /// How each session fared, in the order of their names; those of earlier runs included.
+    /// How each session fared, in the order of their names, including those that an earlier run did.
     pub sessions: Vec<SessionStatus>,
-    /// Sessions for which something was done in this run.
+    /// The number of sessions for which something was done in this run.
     pub done: usize,
-    /// Whether results were written; not when they are what they would be.
+    /// Whether results were written. They are not when the files are what would be written.
     pub wrote: bool,
     /// Sessions and seconds by stage.
     pub stages: Vec<StageLog>,
-    /// How long it took.
+    /// The duration of the run.
     pub seconds: f64,
 }
 
@@ -63,22 +63,22 @@ pub fn run<S: ResultSink>(
     }
     let study_inputs = write::study_inputs(study)?;
     let program = options.program_and_commit();
-    let common = Common::new(study, &program)?;
-    let all = All { common: &common, work: &work, options, reporter };
+    let context = RunContext::new(study, &program)?;
+    let batch = Batch { context: &context, work: &work, options, reporter };
 
-    let plans = all.plan(&study.sessions.iter().collect::<Vec<_>>())?;
+    let plans = batch.plan(&study.sessions.iter().collect::<Vec<_>>())?;
     reporter.begin(&Totals {
         sessions: plans.len(),
         kept: plans.iter().filter(|plan| plan.current.all()).count(),
         bytes: Some(plans.iter().map(|plan| plan.bytes_to_read).sum()),
     });
-    let mut tally = all.carry_out(&plans)?;
+    let mut tally = batch.carry_out(&plans)?;
     let writing = Writing { study, options, work: &work, study_inputs };
     let mut wrote = false;
     if !writing.is_done(&sink.files())? {
         let damaged = writing.damaged(&plans)?;
         if !damaged.is_empty() {
-            tally.add(all.carry_out(&all.plan(&damaged)?)?);
+            tally.add(batch.carry_out(&batch.plan(&damaged)?)?);
         }
         let log = RunLog { started_utc, ..tally.log(options) };
         writing.write(&tally.statuses, log, start, sink)?;

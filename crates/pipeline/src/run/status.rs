@@ -1,4 +1,4 @@
-//! What a run would find done, and what it would do.
+//! The state of a study in a work folder: what is done, and what a run would do.
 
 use std::path::Path;
 
@@ -7,9 +7,9 @@ use model::SessionStatus;
 
 use super::Halted;
 use super::options::program_and_commit;
-use super::plan::{Common, Current};
+use super::plan::{Current, RunContext};
+use crate::parallel::in_parallel;
 use crate::session::Prepared;
-use crate::sessions::in_parallel;
 use crate::study::{SessionDir, Study};
 use crate::work::{Holder, Kept, State, recording_of, state_file};
 
@@ -18,56 +18,56 @@ use crate::work::{Holder, Kept, State, recording_of, state_file};
 pub struct StudyState {
     /// The sessions of the study, by name.
     pub sessions: Vec<SessionState>,
-    /// Sessions that the work folder holds and the study has no more.
+    /// The sessions that the work folder holds and the study no longer has.
     pub removed: Vec<String>,
-    /// The run at work there now.
+    /// The run that is at work there now.
     pub holder: Option<Holder>,
 }
 
 /// The state of a session.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionState {
-    /// Its name.
+    /// The name of the session.
     pub session: String,
-    /// What a run would not do again.
+    /// The stages that a run would not do again.
     pub current: Current,
-    /// Bytes of its card that a run would read.
+    /// The number of bytes of its card that a run would read.
     pub bytes_to_read: u64,
-    /// Whether the recording has the calibration of an earlier camera. Sizes do not depend on it; viewers show it.
+    /// Whether the recording holds the calibration of an earlier camera. Sizes do not depend on it, but viewers show it.
     pub has_old_calibration: bool,
-    /// How it fared when it was last measured.
+    /// How the session fared when it was last measured.
     pub status: Option<SessionStatus>,
-    /// When that was, UTC.
+    /// The time at which it was last measured, in UTC.
     pub measured_utc: Option<String>,
 }
 
-/// Looks at a study and a work folder, beside a run if one is at work. Reads no card and changes nothing.
+/// Looks at a study and a work folder, also while a run is at work there. Reads no card and changes nothing.
 ///
 /// # Errors
 /// [`Halted`] when the state of the work folder cannot be read.
 pub fn status(study: &Study, work_dir: &Path, program: &str, commit: Option<&str>) -> Result<StudyState, Halted> {
     let state = State::open_to_look(&state_file(work_dir))?;
-    let mut kept = state.as_ref().map(State::all).transpose()?.unwrap_or_default();
+    let mut kept = state.as_ref().map(State::kept_by_session).transpose()?.unwrap_or_default();
     let program = program_and_commit(program, commit);
-    let common = Common::new(study, &program)?;
+    let context = RunContext::new(study, &program)?;
     let dirs: Vec<_> = study.sessions.iter().map(|dir| (dir, kept.remove(&dir.name).unwrap_or_default())).collect();
     let sessions = in_parallel(&dirs, None, |(dir, kept): &(_, Kept)| {
         let mcap = recording_of(work_dir, &dir.name);
-        let plan = common.plan(dir, kept.clone(), state.as_ref(), &mcap);
+        let plan = context.plan(dir, kept.clone(), state.as_ref(), &mcap);
         SessionState {
             session: dir.name.clone(),
             current: plan.current,
             bytes_to_read: plan.bytes_to_read,
-            has_old_calibration: plan.current.ingest && has_old_calibration(&common, dir, &mcap),
+            has_old_calibration: plan.current.ingest && has_old_calibration(&context, dir, &mcap),
             status: plan.kept.status,
             measured_utc: plan.kept.measure.map(|stage| stage.made_utc),
         }
     })?;
-    Ok(StudyState { sessions, removed: kept.into_keys().collect(), holder: Holder::of(work_dir) })
+    Ok(StudyState { sessions, removed: kept.into_keys().collect(), holder: Holder::current(work_dir) })
 }
 
-fn has_old_calibration(common: &Common<'_>, dir: &SessionDir, mcap: &Path) -> bool {
-    match (Prepared::new(common.study, dir, common.program), SessionReader::open(mcap)) {
+fn has_old_calibration(context: &RunContext<'_>, dir: &SessionDir, mcap: &Path) -> bool {
+    match (Prepared::new(context.study, dir, context.program), SessionReader::open(mcap)) {
         (Ok(prepared), Ok(reader)) => reader.metadata().camera != prepared.source.camera_spec,
         _ => false,
     }

@@ -1,28 +1,27 @@
-//! One session through its stages: what is kept is used, what is done is kept at once.
+//! Takes one session through its stages. What is kept is used, and what is done is kept at once.
 
 use std::cell::Cell;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use ingest::{ByteBudget, IngestError, Ingested, SessionSource};
-use model::{Problem, SessionLog, SessionStatus, Severity, Stage};
+use model::{Problem, ProblemCode, SessionLog, SessionStatus, Severity, Stage};
 
-use super::plan::{Common, SessionPlan, of_recording};
+use super::plan::{RunContext, SessionPlan, recording_fingerprint};
 use super::{Halted, keys};
 use crate::inputs::sha256_of_bytes;
-use crate::labelme::MARKS_UNREADABLE;
+use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
 use crate::session::{
-    BAD_MCAP, CardProgress, Prepared, Recording, SearchError, Searched, failed, ingest_problem, measure,
-    read_recording, tidy,
+    CardProgress, Measuring, Prepared, Recording, SearchError, Searched, failed, finish_status, ingest_problem,
+    read_recording,
 };
-use crate::sessions::unless_panicking;
 use crate::stop::Stop;
 use crate::work::{KeptStage, StageOutput, WorkError, WorkFolder};
 
-/// What the sessions at work share.
+/// The work folder, the budget and the context that all sessions at work share.
 pub(super) struct Worker<'a> {
-    pub common: &'a Common<'a>,
+    pub context: &'a RunContext<'a>,
     pub work: &'a WorkFolder,
     pub force: bool,
     pub stop: &'a Stop,
@@ -30,26 +29,26 @@ pub(super) struct Worker<'a> {
     pub reporter: &'a dyn Reporter,
 }
 
-/// What was done of a session.
-pub(super) struct Done {
+/// A session that is done: how it fared, and how long its stages took.
+pub(super) struct SessionDone {
     pub status: SessionStatus,
     pub log: SessionLog,
 }
 
-/// Why a session does not go on.
-pub(super) enum Trouble {
+/// The reason why a session does not go on.
+pub(super) enum Interruption {
     Session(Box<Problem>),
     Halt(Halted),
     Stopped,
 }
 
-impl From<Problem> for Trouble {
+impl From<Problem> for Interruption {
     fn from(problem: Problem) -> Self {
         Self::Session(Box::new(problem))
     }
 }
 
-impl From<SearchError> for Trouble {
+impl From<SearchError> for Interruption {
     fn from(error: SearchError) -> Self {
         match error {
             SearchError::Stopped => Self::Stopped,
@@ -58,31 +57,33 @@ impl From<SearchError> for Trouble {
     }
 }
 
-impl From<WorkError> for Trouble {
+impl From<WorkError> for Interruption {
     fn from(error: WorkError) -> Self {
         Self::Halt(error.into())
     }
 }
 
-impl From<serde_json::Error> for Trouble {
+impl From<serde_json::Error> for Interruption {
     fn from(error: serde_json::Error) -> Self {
         Self::Halt(WorkError::from(error).into())
     }
 }
 
 impl Worker<'_> {
-    /// Runs a session as far as that is needed; none when it was stopped. A session that fails, or panics, has a status and
-    /// a ledger; it is tried again the next time.
-    pub fn run(&self, plan: &SessionPlan<'_>) -> Result<Option<Done>, Halted> {
+    /// Runs a session as far as that is needed; none when it was stopped. A session that fails or panics gets a status and a
+    /// ledger, and is tried again the next time.
+    pub fn run(&self, plan: &SessionPlan<'_>) -> Result<Option<SessionDone>, Halted> {
         let stage = Cell::new(Stage::Study);
         let mut log = SessionLog { session: plan.dir.name.clone(), ..SessionLog::default() };
         let outcome = unless_panicking(plan.dir, &stage, || self.stages(plan, &stage, &mut log));
         let outcome = outcome.unwrap_or_else(|problem| Err(problem.into()));
         match outcome {
-            Ok(status) => Ok(Some(Done { status, log })),
-            Err(Trouble::Session(problem)) => Ok(Some(Done { status: self.keep_failed(plan, *problem)?, log })),
-            Err(Trouble::Halt(halted)) => Err(halted),
-            Err(Trouble::Stopped) => Ok(None),
+            Ok(status) => Ok(Some(SessionDone { status, log })),
+            Err(Interruption::Session(problem)) => {
+                Ok(Some(SessionDone { status: self.keep_failed(plan, *problem)?, log }))
+            }
+            Err(Interruption::Halt(halted)) => Err(halted),
+            Err(Interruption::Stopped) => Ok(None),
         }
     }
 
@@ -91,16 +92,16 @@ impl Worker<'_> {
         plan: &SessionPlan<'_>,
         stage: &Cell<Stage>,
         log: &mut SessionLog,
-    ) -> Result<SessionStatus, Trouble> {
-        // Again: hours may have gone since the plan.
-        let prepared = Prepared::new(self.common.study, plan.dir, self.common.program)?;
+    ) -> Result<SessionStatus, Interruption> {
+        // The card is looked at again, since hours may have gone by since the plan was made.
+        let prepared = Prepared::new(self.context.study, plan.dir, self.context.program)?;
         self.begin(plan, stage, Stage::Ingest);
         let (ingest_key, changed) = self.ingest(plan, &prepared, log)?;
-        let signals_key = keys::signals_key(self.common.study, self.common.program, &ingest_key)?;
-        let parts = self.common.measure_parts(plan.dir, &prepared, &signals_key);
+        let signals_key = keys::signals_key(self.context.study, self.context.program, &ingest_key)?;
+        let parts = self.context.measure_parts(plan.dir, &prepared, &signals_key);
         let fingerprint = parts.fingerprint(plan.dir)?.settled();
         let measure_key = parts.key(plan.dir)?;
-        let search_key = keys::search_key(parts, plan.dir)?;
+        let search_key = parts.search_key(plan.dir)?;
         let is_kept = |kept: &Option<_>, key: &str| {
             kept.as_ref().is_some_and(|stage: &KeptStage| stage.key == key) && !self.force
         };
@@ -123,10 +124,12 @@ impl Worker<'_> {
         let start = Instant::now();
         let auto = self.search(plan, &prepared, &recording, search_key.as_deref())?;
         let searched = search_key.filter(|_| is_whole).map(|key| Searched { key, problems: auto.problems.clone() });
-        let mut output = measure(self.common.study, plan.dir, &prepared, recording, auto, self.reporter);
+        let (study, reporter) = (self.context.study, self.reporter);
+        let measuring = Measuring { study, dir: plan.dir, prepared: &prepared, is_bench: false, reporter };
+        let mut output = measuring.measure(recording, auto);
         output.searched = searched;
         output.status.problems.extend(changed);
-        tidy(&mut output, self.common.study, &self.work.mcap_dir);
+        finish_status(&mut output, self.context.study, &self.work.mcap_dir);
         log.measure_s = Some(start.elapsed().as_secs_f64());
         let kept = StageOutput {
             key: if is_whole && !has_unread_marks(&output.status) { &measure_key } else { "" },
@@ -143,28 +146,28 @@ impl Worker<'_> {
         stage.set(begun);
         self.reporter.stage(&plan.dir.name, begun);
         #[cfg(debug_assertions)]
-        crate::fault::at(&plan.dir.name, begun);
+        crate::fault::inject(&plan.dir.name, begun);
     }
 
-    /// Key of the recording, and what is wrong if the card changed while it was read.
+    /// The key of the recording, and a problem if the card changed while it was read.
     fn ingest(
         &self,
         plan: &SessionPlan<'_>,
         prepared: &Prepared,
         log: &mut SessionLog,
-    ) -> Result<(String, Option<Problem>), Trouble> {
+    ) -> Result<(String, Option<Problem>), Interruption> {
         if let (true, Some(kept)) = (plan.current.ingest, &plan.kept.ingest) {
             return Ok((kept.key.clone(), None));
         }
         let source = &prepared.source;
-        let refuse = |error: IngestError| of_ingest(&plan.dir.name, error);
+        let refuse = |error: IngestError| ingest_interruption(&plan.dir.name, error);
         let start = Instant::now();
-        let before = self.common.look.fingerprint(source).map_err(refuse)?;
+        let before = self.context.fingerprinter.fingerprint(source).map_err(refuse)?;
         let is_mixture = plan.kept.ingest.as_ref().is_some_and(|kept| kept.key.is_empty());
         let ingested = self.ingest_card(source, self.force || is_mixture)?;
-        let after = self.common.look.fingerprint(source).map_err(refuse)?;
+        let after = self.context.fingerprinter.fingerprint(source).map_err(refuse)?;
         let seconds = start.elapsed().as_secs_f64();
-        // A card that was only hashed, and is what it was, was not ingested.
+        // A card that was only hashed, and has not changed, was not ingested.
         log.ingest_s = matches!(ingested, Ingested::Fresh(_)).then_some(seconds);
         let changed = (before.hex() != after.hex()).then(|| changed_while_read(&plan.dir.name));
         match &changed {
@@ -181,12 +184,12 @@ impl Worker<'_> {
         fingerprint: Option<String>,
         seconds: f64,
     ) -> Result<(), WorkError> {
-        let output = of_recording(&self.mcap(plan)).hex();
+        let output = recording_fingerprint(&self.mcap(plan)).hex();
         let kept = StageOutput { key, fingerprint, seconds, output: &output, status: None };
         self.work.state.keep(&plan.dir.name, Stage::Ingest, &kept).map(|_| ())
     }
 
-    fn ingest_card(&self, source: &SessionSource, anew: bool) -> Result<Ingested, Trouble> {
+    fn ingest_card(&self, source: &SessionSource, anew: bool) -> Result<Ingested, Interruption> {
         let mcap = self.work.mcap(&source.session);
         let progress = CardProgress {
             session: &source.session,
@@ -199,10 +202,10 @@ impl Worker<'_> {
         } else {
             ingest::ingest_if_changed(source, &mcap, &progress)
         };
-        ingested.map_err(|error| of_ingest(&source.session, error))
+        ingested.map_err(|error| ingest_interruption(&source.session, error))
     }
 
-    /// The readings: those kept, or made from the recording. A recording that is damaged is made again, once.
+    /// The readings, either kept ones or made from the recording. A damaged recording is made again, once.
     fn signals(
         &self,
         plan: &SessionPlan<'_>,
@@ -210,7 +213,7 @@ impl Worker<'_> {
         key: &str,
         is_kept: bool,
         log: &mut SessionLog,
-    ) -> Result<Recording, Trouble> {
+    ) -> Result<Recording, Interruption> {
         let session = &plan.dir.name;
         if is_kept
             && let Some(text) = self.work.state.output(session, Stage::Signals)?
@@ -219,9 +222,9 @@ impl Worker<'_> {
             return Ok(recording);
         }
         let start = Instant::now();
-        let read = || read_recording(self.common.study, &self.mcap(plan), session);
+        let read = || read_recording(self.context.study, &self.mcap(plan), session);
         let recording = match read() {
-            Err(problem) if problem.code == BAD_MCAP => {
+            Err(problem) if problem.code == ProblemCode::BadMcap => {
                 self.ingest_again(plan, prepared, &problem)?;
                 read()?
             }
@@ -235,13 +238,13 @@ impl Worker<'_> {
         Ok(recording)
     }
 
-    /// Makes a damaged recording anew.
+    /// Makes a damaged recording again from its card.
     pub(super) fn ingest_again(
         &self,
         plan: &SessionPlan<'_>,
         prepared: &Prepared,
         problem: &Problem,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), Interruption> {
         let start = Instant::now();
         tracing::warn!(session = plan.dir.name, "{}; its card is ingested again", problem.fact);
         let ingested = self.ingest_card(&prepared.source, true)?;
@@ -249,8 +252,8 @@ impl Worker<'_> {
     }
 
     fn keep_failed(&self, plan: &SessionPlan<'_>, problem: Problem) -> Result<SessionStatus, Halted> {
-        let mut output = failed(self.common.study, plan.dir, problem);
-        tidy(&mut output, self.common.study, &self.work.mcap_dir);
+        let mut output = failed(self.context.study, plan.dir, problem);
+        finish_status(&mut output, self.context.study, &self.work.mcap_dir);
         let text = serde_json::to_string(&output).map_err(WorkError::from)?;
         let failed_likewise =
             |kept: &KeptStage| kept.key.is_empty() && kept.output_sha256 == sha256_of_bytes(text.as_bytes());
@@ -268,15 +271,15 @@ impl Worker<'_> {
     }
 }
 
-/// Marks that the system refused once may be there the next time, with nothing to tell them from those of before.
+/// Whether marks could not be read. They may be readable the next time, and nothing would tell them from those of now.
 fn has_unread_marks(status: &SessionStatus) -> bool {
-    status.problems.iter().any(|problem| problem.code == MARKS_UNREADABLE)
+    status.problems.iter().any(|problem| problem.code == ProblemCode::MarksUnreadable)
 }
 
-fn of_ingest(session: &str, error: IngestError) -> Trouble {
+fn ingest_interruption(session: &str, error: IngestError) -> Interruption {
     match error {
-        IngestError::Stopped => Trouble::Stopped,
-        error if error.is_of_all_sessions() => Trouble::Halt(Halted::Ingest { error: Box::new(error) }),
+        IngestError::Stopped => Interruption::Stopped,
+        error if error.is_of_all_sessions() => Interruption::Halt(Halted::Ingest { error: Box::new(error) }),
         error => ingest_problem(session, &error).into(),
     }
 }
@@ -285,7 +288,7 @@ fn changed_while_read(session: &str) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Ingest,
-        code: "card_changed".to_owned(),
+        code: ProblemCode::CardChanged,
         place: format!("cards/{session}"),
         fact: "the card's files changed while they were read; what was read may be a mixture".to_owned(),
         remedy: "wait until the card is copied whole, and run again; the session is then read anew".to_owned(),

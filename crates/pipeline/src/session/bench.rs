@@ -1,14 +1,14 @@
-//! Known sizes of a session, for its calibration.
+//! The sizes of a session that are known, for a calibration to learn from.
 
 use model::calibrate::physical::BenchSize;
 use model::{Estimate, Method, Pose, Quantity, View, best_of, estimate};
 
-use super::Session;
-use super::measurement::Marked;
-use crate::calibrate::BenchSession;
+use super::frames::Session;
+use super::marked::Marked;
+use super::output::BenchSession;
 
-/// Sizes with a truth, by the surest exact method whose assumptions hold.
-pub(super) fn of(session: &Session<'_>, marked: &[Marked<'_>]) -> BenchSession {
+/// The sizes that have a truth, each by the surest exact method whose assumptions hold, and the angles that were set.
+pub(super) fn bench_session(session: &Session<'_>, marked: &[Marked<'_>]) -> BenchSession {
     let spec = &session.spec;
     let sizes = |pose: fn(&Marked<'_>) -> Option<Pose>| {
         marked.iter().filter_map(|m| Some((m, pose(m)?))).flat_map(|(m, pose)| known_sizes(session, m, pose)).collect()
@@ -25,14 +25,14 @@ pub(super) fn of(session: &Session<'_>, marked: &[Marked<'_>]) -> BenchSession {
 
 fn known_sizes(session: &Session<'_>, m: &Marked<'_>, pose: Pose) -> Vec<BenchSize> {
     let view = View::new(session.marks_camera, pose);
-    let found: Vec<(Quantity, Estimate)> = [Method::Coaxial, Method::Ray]
+    let sizes: Vec<(Quantity, Estimate)> = [Method::Coaxial, Method::Ray]
         .into_iter()
         .flat_map(|method| estimate(&view, method, &m.object.container, m.marks, &m.inputs))
         .filter_map(|(quantity, size)| Some((quantity, size.ok()?)))
         .filter(|(_, size)| size.doubts.is_empty())
         .collect();
     let known = |(quantity, true_mm): (&Quantity, &f64)| {
-        let of_quantity = found.iter().filter(|(q, _)| q == quantity).map(|(_, size)| size);
+        let of_quantity = sizes.iter().filter(|(q, _)| q == quantity).map(|(_, size)| size);
         Some(BenchSize {
             object: m.marks.object.clone(),
             setup: session.dir.name.clone(),

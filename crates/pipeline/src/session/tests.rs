@@ -3,13 +3,15 @@
 
 use std::path::Path;
 
-use model::{Method, Severity};
+use model::{Method, ResultRow, Severity};
 
-use super::*;
+use super::{SessionOptions, SessionOutput, run_session};
 use crate::reporter::Silent;
-use crate::study::{GravityCalibrate, RangeCone, StudySpec};
+use crate::signals::{GravityCalibrate, RangeCone};
+use crate::stop::Stop;
+use crate::study::{Study, StudySpec};
 
-/// Without losses.
+/// The output of a session that must not have losses.
 fn run(adjust: impl FnOnce(&mut StudySpec)) -> SessionOutput {
     let output = run_with(adjust);
     assert!(!output.status.has_losses(), "{:?}", output.status.problems);
@@ -24,6 +26,7 @@ fn run_with(adjust: impl FnOnce(&mut StudySpec)) -> SessionOutput {
     let options = SessionOptions {
         mcap_dir: mcap_dir.path().to_owned(),
         survey: false,
+        is_bench: false,
         program: "test".to_owned(),
         stop: Stop::default(),
     };
@@ -32,7 +35,7 @@ fn run_with(adjust: impl FnOnce(&mut StudySpec)) -> SessionOutput {
 
 fn codes(output: &SessionOutput) -> Vec<&str> {
     assert!(output.status.problems.iter().all(|problem| problem.severity == Severity::Note));
-    output.status.problems.iter().map(|problem| problem.code.as_str()).collect()
+    output.status.problems.iter().map(|problem| problem.code.code()).collect()
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! From gravity and range to the pose of one image, and the reason that the ledger gives.
+//! The pose of one image from gravity and range, and the reason that the ledger gives: step *select* of a session, for one
+//! image.
 
 use model::{FrameFlag, FrameReason, Pose};
 use nalgebra::{Rotation3, Vector3};
@@ -6,12 +7,11 @@ use nalgebra::{Rotation3, Vector3};
 use super::FrameSignals;
 use super::gravity::Gravity;
 use super::range::{Range, cone};
-use super::settings::PoseSettings;
-use crate::study::RangeCone;
+use super::settings::{PoseSettings, RangeCone};
 
-/// What the sensors say about one image; none when its time exists twice.
-pub(super) fn signals(found: Option<(Option<Gravity>, Range)>, settings: &PoseSettings) -> FrameSignals {
-    match found {
+/// The signals of one image; `sensed` is none when its time exists twice.
+pub(super) fn signals(sensed: Option<(Option<Gravity>, Range)>, settings: &PoseSettings) -> FrameSignals {
+    match sensed {
         Some((gravity, range)) => of_readings(gravity, range, settings),
         None => FrameSignals {
             reason: FrameReason::AmbiguousTime,
@@ -64,7 +64,7 @@ fn of_readings(gravity: Option<Gravity>, range: Range, settings: &PoseSettings) 
     signals
 }
 
-/// The pose with the distance along the axis that the range sensor's cone on a tilted table stands for.
+/// The pose with the distance along the axis for which the range sensor's cone on a tilted table gives this reading.
 fn without_cone(pose: Pose) -> Option<Pose> {
     let axis_range_mm = pose.range_mm() / cone::reading_over_axis(pose.pitch_rad())?;
     Pose::new(pose.pitch_rad(), pose.roll_rad(), axis_range_mm).ok()
@@ -89,15 +89,15 @@ fn reason(signals: &FrameSignals, settings: &PoseSettings) -> FrameReason {
     if stillness_mg > settings.stillness_max_mg {
         return FrameReason::Moving;
     }
-    let off_target_deg = (pitch_rad.to_degrees() - settings.select.target_pitch_deg).abs();
-    if off_target_deg > settings.select.pitch_tolerance_deg {
+    let off_target_deg = (pitch_rad.to_degrees() - settings.target_pitch_deg).abs();
+    if off_target_deg > settings.pitch_tolerance_deg {
         return FrameReason::PitchOutsideTarget;
     }
     FrameReason::Selected
 }
 
-/// Down in the camera frame, from the specific force at rest in the device frame (it points up), with the camera turned
-/// down by the mount offset about the axis x that both share.
+/// The direction down in the camera frame. The specific force at rest, in the device frame, points up; the camera is turned
+/// down by the mount offset about the axis x that both frames share.
 pub(crate) fn down_in_camera(specific_force_g: &Vector3<f64>, mount_pitch_rad: f64) -> Vector3<f64> {
     Rotation3::from_axis_angle(&Vector3::x_axis(), mount_pitch_rad) * -specific_force_g
 }
@@ -108,9 +108,8 @@ mod tests {
     use model::Method;
 
     use super::*;
-    use crate::study::{SelectSpec, SignalsSpec};
 
-    /// What an accelerometer at rest reads, when its forward axis points `pitch` below the horizon.
+    /// The specific force that an accelerometer at rest reads when its forward axis points `pitch` below the horizon.
     fn at_rest(sensor_pitch_deg: f64, roll_deg: f64) -> Vector3<f64> {
         let pose = Pose::new(sensor_pitch_deg.to_radians(), roll_deg.to_radians(), 500.0).unwrap();
         -pose.down_in_camera()
@@ -128,26 +127,26 @@ mod tests {
     }
 
     fn settings() -> PoseSettings {
-        PoseSettings::new(&SignalsSpec::default(), &SelectSpec::default(), 21_f64.to_radians())
+        PoseSettings::with_mount(21_f64.to_radians())
     }
 
-    fn said(specific_force_g: Vector3<f64>, motion_rms_g: f64, range_mm: Option<f64>) -> FrameSignals {
+    fn signals_at(specific_force_g: Vector3<f64>, motion_rms_g: f64, range_mm: Option<f64>) -> FrameSignals {
         of_readings(gravity(specific_force_g, motion_rms_g), range(range_mm), &settings())
     }
 
     #[test]
     fn camera_pitch_is_sensor_pitch_plus_the_mount_offset() {
-        let found = said(at_rest(34.0, 0.0), 0.005, Some(580.0));
-        let (pitch, roll) = found.pitch_roll_rad.unwrap();
+        let judged = signals_at(at_rest(34.0, 0.0), 0.005, Some(580.0));
+        let (pitch, roll) = judged.pitch_roll_rad.unwrap();
         assert!((pitch.to_degrees() - 55.0).abs() < 1e-9 && roll.abs() < 1e-12);
-        assert_eq!(found.reason, FrameReason::Selected);
-        assert!((found.pose.unwrap().range_mm() - 580.0).abs() < 1e-12);
+        assert_eq!(judged.reason, FrameReason::Selected);
+        assert!((judged.pose.unwrap().range_mm() - 580.0).abs() < 1e-12);
     }
 
     #[test]
     fn level_head_still_looks_down_by_the_mount_offset() {
         let upright = Vector3::new(0.0, -1.0, 0.0);
-        let (pitch, _) = said(upright, 0.0, Some(500.0)).pitch_roll_rad.unwrap();
+        let (pitch, _) = signals_at(upright, 0.0, Some(500.0)).pitch_roll_rad.unwrap();
         assert!((pitch.to_degrees() - 21.0).abs() < 1e-9);
     }
 
@@ -165,12 +164,12 @@ mod tests {
     fn the_first_reason_that_applies_is_given() {
         let good = at_rest(34.0, 0.0);
         assert_eq!(of_readings(None, NO_RANGE, &settings()).reason, FrameReason::NoAcceleration);
-        assert_eq!(said(good * 1.2, 0.005, Some(580.0)).reason, FrameReason::BadGravity);
-        assert_eq!(said(good, 0.005, None).reason, FrameReason::NoRange);
+        assert_eq!(signals_at(good * 1.2, 0.005, Some(580.0)).reason, FrameReason::BadGravity);
+        assert_eq!(signals_at(good, 0.005, None).reason, FrameReason::NoRange);
         let looking_up = Rotation3::from_axis_angle(&Vector3::x_axis(), -1.2) * good;
-        assert_eq!(said(looking_up, 0.005, Some(580.0)).reason, FrameReason::NotBelowHorizon);
-        assert_eq!(said(good, 0.2, Some(580.0)).reason, FrameReason::Moving);
-        assert_eq!(said(at_rest(20.0, 0.0), 0.005, Some(580.0)).reason, FrameReason::PitchOutsideTarget);
+        assert_eq!(signals_at(looking_up, 0.005, Some(580.0)).reason, FrameReason::NotBelowHorizon);
+        assert_eq!(signals_at(good, 0.2, Some(580.0)).reason, FrameReason::Moving);
+        assert_eq!(signals_at(at_rest(20.0, 0.0), 0.005, Some(580.0)).reason, FrameReason::PitchOutsideTarget);
     }
 
     #[test]
@@ -181,37 +180,37 @@ mod tests {
             (at_rest(34.0, 0.0), 0.2, Some(580.0)),
             (at_rest(34.0, 0.0), 0.005, None),
         ] {
-            let found = said(force, motion, range);
-            assert_eq!(found.pose.is_some(), found.reason.has_pose(), "{:?}", found.reason);
+            let judged = signals_at(force, motion, range);
+            assert_eq!(judged.pose.is_some(), judged.reason.has_pose(), "{:?}", judged.reason);
         }
     }
 
     #[test]
     fn a_time_that_exists_twice_says_nothing() {
-        let found = signals(None, &settings());
-        assert_eq!((found.reason, found.pose, found.gravity_mg), (FrameReason::AmbiguousTime, None, None));
+        let judged = signals(None, &settings());
+        assert_eq!((judged.reason, judged.pose, judged.gravity_mg), (FrameReason::AmbiguousTime, None, None));
     }
 
     #[test]
     fn flags_tell_and_drop_nothing() {
         let edge = gravity(at_rest(34.0, 0.0), 0.005).map(|g| Gravity { one_sided: true, ..g });
         let step = Range { step: true, held: true, ..range(Some(580.0)) };
-        let found = of_readings(edge, step, &settings());
-        assert_eq!(found.flags, [FrameFlag::GravityEdge, FrameFlag::RangeHeld, FrameFlag::RangeStep]);
-        assert_eq!((found.reason, found.range_distinct), (FrameReason::Selected, 40));
-        assert!(said(at_rest(34.0, 0.0), 0.005, Some(580.0)).flags.is_empty());
+        let judged = of_readings(edge, step, &settings());
+        assert_eq!(judged.flags, [FrameFlag::GravityEdge, FrameFlag::RangeHeld, FrameFlag::RangeStep]);
+        assert_eq!((judged.reason, judged.range_distinct), (FrameReason::Selected, 40));
+        assert!(signals_at(at_rest(34.0, 0.0), 0.005, Some(580.0)).flags.is_empty());
     }
 
     #[test]
     fn the_cone_is_corrected_when_declared_and_never_for_the_paper() {
-        let plain = said(at_rest(34.0, 0.0), 0.005, Some(580.0));
+        let plain = signals_at(at_rest(34.0, 0.0), 0.005, Some(580.0));
         assert_eq!((plain.cone_pose, plain.pose_for(Method::Ray)), (None, plain.pose));
         let mut declared = settings();
         declared.range_cone = RangeCone::TiltedPlane;
-        let found = of_readings(gravity(at_rest(34.0, 0.0), 0.005), range(Some(580.0)), &declared);
-        assert_eq!((found.pose, found.range_mm), (plain.pose, plain.range_mm), "the reading stays as it was");
-        assert_eq!(found.pose_for(Method::Paper), plain.pose);
-        let ratio = 580.0 / found.pose_for(Method::Ray).unwrap().range_mm();
+        let judged = of_readings(gravity(at_rest(34.0, 0.0), 0.005), range(Some(580.0)), &declared);
+        assert_eq!((judged.pose, judged.range_mm), (plain.pose, plain.range_mm), "the reading stays as it was");
+        assert_eq!(judged.pose_for(Method::Paper), plain.pose);
+        let ratio = 580.0 / judged.pose_for(Method::Ray).unwrap().range_mm();
         assert!((ratio - cone::reading_over_axis(55_f64.to_radians()).unwrap()).abs() < 1e-12);
         // 11 degrees below the horizon: part of the cone looks over the table.
         let up = Rotation3::from_axis_angle(&Vector3::x_axis(), -10_f64.to_radians()) * Vector3::new(0.0, -1.0, 0.0);

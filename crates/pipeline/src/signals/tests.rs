@@ -7,7 +7,6 @@ use ingest::timeline::Span;
 use model::FrameReason;
 
 use super::*;
-use crate::study::{SelectSpec, SignalsSpec};
 
 const RATE_HZ: f64 = 32.0;
 
@@ -19,9 +18,9 @@ fn settings(gravity_calibration: GravityCalibrate) -> ReadingSettings {
     ReadingSettings { gravity_calibration, ..ReadingSettings::default() }
 }
 
-fn judged(found: &SessionReadings) -> Vec<FrameSignals> {
-    let settings = PoseSettings::new(&SignalsSpec::default(), &SelectSpec::default(), 21_f64.to_radians());
-    found.readings.iter().map(|reading| reading.judge(&settings)).collect()
+fn judged(sensed: &SessionReadings) -> Vec<FrameSignals> {
+    let settings = PoseSettings::with_mount(21_f64.to_radians());
+    sensed.readings.iter().map(|reading| reading.judge(&settings)).collect()
 }
 
 fn readings_of(
@@ -62,10 +61,10 @@ fn an_accepted_calibration_is_applied_only_when_asked_for() {
     let (samples, worn_s) = recording();
     let roll_deg = |gravity_calibration| {
         let settings = settings(gravity_calibration);
-        let found = readings_of(&samples, &Timeline::default(), &[seconds(worn_s + 30.0)], &settings);
-        let frames = judged(&found);
+        let sensed = readings_of(&samples, &Timeline::default(), &[seconds(worn_s + 30.0)], &settings);
+        let frames = judged(&sensed);
         assert_eq!(frames[0].reason, FrameReason::Selected);
-        (frames[0].pitch_roll_rad.unwrap().1.to_degrees(), found.calibration)
+        (frames[0].pitch_roll_rad.unwrap().1.to_degrees(), sensed.calibration)
     };
     let (off, reported, applied) =
         (roll_deg(GravityCalibrate::Off), roll_deg(GravityCalibrate::Report), roll_deg(GravityCalibrate::Apply));
@@ -93,8 +92,8 @@ fn an_image_near_a_time_that_exists_twice_has_no_pose() {
     let span = Span { from: seconds(worn_s + 20.0), to: seconds(worn_s + 25.0) };
     let timeline = Timeline { ambiguous: vec![span], ..Timeline::default() };
     let images = [15.0, 19.0, 22.0, 26.0, 30.0].map(|s| seconds(worn_s + s));
-    let found = readings_of(&samples, &timeline, &images, &ReadingSettings::default());
-    let frames = judged(&found);
+    let sensed = readings_of(&samples, &timeline, &images, &ReadingSettings::default());
+    let frames = judged(&sensed);
     let reasons: Vec<_> = frames.iter().map(|frame| frame.reason).collect();
     let (good, twice) = (FrameReason::Selected, FrameReason::AmbiguousTime);
     assert_eq!(reasons, [good, twice, twice, twice, good]);

@@ -7,42 +7,49 @@ pub(super) struct Windows<'a, T, R, F: Fn(UtcNs, &[(UtcNs, T)]) -> R> {
     image_times: &'a [UtcNs],
     half_s: f64,
     evaluate: F,
-    /// Samples that an open image may still need, in the order of the stream.
+    /// The samples that an open image may still need, in the order of the stream.
     kept: Vec<(UtcNs, T)>,
-    /// Samples at the front of `kept` that no open image needs; removed when they are many.
+    /// The number of samples at the front of `kept` that no open image needs; they are removed when they are many.
     stale: usize,
-    found: Vec<R>,
+    results: Vec<R>,
 }
 
 /// `kept` is compacted when this many samples at its front are stale, and at least half of it.
 const COMPACT_FROM: usize = 1024;
 
 impl<'a, T, R, F: Fn(UtcNs, &[(UtcNs, T)]) -> R> Windows<'a, T, R, F> {
-    /// `image_times` in order.
+    /// Windows around `image_times`, which must be in order.
     pub(super) fn new(image_times: &'a [UtcNs], half_s: f64, evaluate: F) -> Self {
         debug_assert!(image_times.is_sorted(), "images come in the order of their times");
-        Self { image_times, half_s, evaluate, kept: Vec::new(), stale: 0, found: Vec::with_capacity(image_times.len()) }
+        Self {
+            image_times,
+            half_s,
+            evaluate,
+            kept: Vec::new(),
+            stale: 0,
+            results: Vec::with_capacity(image_times.len()),
+        }
     }
 
-    /// The next sample of the stream, which is in the order of time.
+    /// Takes the next sample of the stream, which must be in the order of time.
     pub(super) fn push(&mut self, time: UtcNs, value: T) {
-        while let Some(open) = self.image_times.get(self.found.len())
+        while let Some(open) = self.image_times.get(self.results.len())
             && time.seconds_since(*open) > self.half_s
         {
             self.close(*open);
         }
-        let Some(open) = self.image_times.get(self.found.len()) else { return };
+        let Some(open) = self.image_times.get(self.results.len()) else { return };
         if open.seconds_since(time) <= self.half_s {
             self.kept.push((time, value));
         }
     }
 
-    /// What was found for each image, in their order.
+    /// The results of `evaluate` for the images, in their order.
     pub(super) fn finish(mut self) -> Vec<R> {
-        while let Some(open) = self.image_times.get(self.found.len()) {
+        while let Some(open) = self.image_times.get(self.results.len()) {
             self.close(*open);
         }
-        self.found
+        self.results
     }
 
     fn close(&mut self, image_time: UtcNs) {
@@ -50,7 +57,7 @@ impl<'a, T, R, F: Fn(UtcNs, &[(UtcNs, T)]) -> R> Windows<'a, T, R, F> {
         self.stale += self.kept[self.stale..].iter().take_while(too_old).count();
         let in_window = &self.kept[self.stale..];
         let end = in_window.partition_point(|(time, _)| time.seconds_since(image_time) <= self.half_s);
-        self.found.push((self.evaluate)(image_time, &in_window[..end]));
+        self.results.push((self.evaluate)(image_time, &in_window[..end]));
         if self.stale >= COMPACT_FROM && 2 * self.stale >= self.kept.len() {
             self.kept.drain(..self.stale);
             self.stale = 0;

@@ -16,54 +16,51 @@ use std::path::{Path, PathBuf};
 use ingest::Profile;
 use model::{Camera, CameraSpec, TableSpec};
 
-use crate::calibrate::CalibrationFile;
+use crate::calibration::CalibrationFile;
 pub use error::StudyError;
 pub use marks_source::{MarksSource, UnknownMarksSource};
-pub(crate) use names::{FOUND, NAMES_FILE, number_of_found};
+pub(crate) use names::{AUTO, FOUND, NAMES_FILE, number_of_found};
 pub use names::{Named, Names};
 pub use objects::Object;
-pub(crate) use sessions::marks_in;
 pub use sessions::{SessionDir, SessionSpec};
+pub(crate) use sessions::{marks_in, stem_of};
 pub use spec::{
-    GravityCalibrate, MarksSpec, MeasureSpec, MountSpec, PrintedFiles, RangeCone, SelectSpec, SignalsSpec, StudySpec,
-    TableEntry, TimeSpec,
+    MarksSpec, MeasureSpec, MountSpec, PrintedFiles, SelectSpec, SignalsSpec, StudySpec, TableEntry, TimeSpec,
 };
 pub use uncertainty::UncertaintySpec;
 
 /// A study whose settings have been read and checked.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// Its folder, links resolved.
+    /// The folder, with links resolved.
     pub dir: PathBuf,
-    /// Its settings, overrides applied.
+    /// The settings of study.toml, with overrides applied.
     pub spec: StudySpec,
-    /// Objects by name.
+    /// The objects of objects.csv, by name.
     pub objects: BTreeMap<String, Object>,
-    /// Objects that found containers are.
+    /// The objects that found containers are, by names.csv.
     pub names: Names,
-    /// Device profile.
+    /// The device profile.
     pub profile: Profile,
     /// The study's camera.
     pub camera_spec: CameraSpec,
-    /// Camera of the pictures that people marked, where it is another.
+    /// The camera of the pictures that people marked, where it is another one.
     pub marks_camera: Option<(CameraSpec, Camera)>,
-    /// Tables, with printed numbers.
+    /// The error tables, with printed numbers.
     pub tables: Vec<TableSpec>,
-    /// Time zone.
+    /// The time zone of image times that name none.
     pub time_zone: jiff::tz::TimeZone,
-    /// Sessions, by name: those with a card, and those that are only marked.
+    /// The sessions by name: those with a card, and those that are only marked.
     pub sessions: Vec<SessionDir>,
-    /// What a bench has taught about the device, where a run is told of it.
+    /// What a bench has taught about the device, where a run is given it.
     pub calibration: Option<CalibrationFile>,
-    /// Whether sessions are to keep their known sizes, for a calibration.
-    pub(crate) is_bench: bool,
 }
 
 impl Study {
     /// Reads the study in `dir`. `adjust` may change the settings after they are read (command line, environment).
     ///
     /// # Errors
-    /// [`StudyError`] for what concerns the whole study. What concerns one session is found when that session is run.
+    /// [`StudyError`] for what concerns the whole study. A fault of one session shows when that session is run.
     pub fn load(dir: &Path, adjust: impl FnOnce(&mut StudySpec)) -> Result<Self, StudyError> {
         let refuse = || StudyError::NoFolder(dir.to_owned());
         let dir = &dir.canonicalize().ok().filter(|dir| dir.is_dir()).ok_or_else(refuse)?;
@@ -88,7 +85,6 @@ impl Study {
             dir: dir.to_owned(),
             spec,
             calibration: None,
-            is_bench: false,
         };
         camera_of(&study.spec.camera, &study.camera_spec)?;
         study.check_tables()?;
@@ -120,6 +116,11 @@ impl Study {
     #[must_use]
     pub fn holds(&self, path: &Path) -> bool {
         path.canonicalize().is_ok_and(|path| path.starts_with(&self.dir))
+    }
+
+    /// A path relative to the study, with `/` between its parts; unchanged where it lies outside.
+    pub(crate) fn relative(&self, path: &Path) -> String {
+        path.strip_prefix(&self.dir).unwrap_or(path).to_string_lossy().replace('\\', "/")
     }
 
     /// The camera of the pictures of a session that people marked: the session's own, else the study's, else `camera`,

@@ -1,4 +1,4 @@
-//! One run at a time in a work folder. The system drops the lock with the process, however it ends.
+//! Lets one run at a time into a work folder. The system drops the lock with the process, however that ends.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read as _, Seek as _, Write as _};
@@ -9,7 +9,7 @@ use jiff::Timestamp;
 
 use super::WorkError;
 
-/// A lock, held until this is dropped.
+/// A lock, held until this value is dropped.
 pub(super) struct Lock {
     _file: File,
 }
@@ -22,7 +22,7 @@ impl Lock {
         match try_lock(&file) {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
-                return Err(WorkError::Held { path: path.to_owned(), holder: told(&mut file) });
+                return Err(WorkError::Held { path: path.to_owned(), holder: holder_line(&mut file) });
             }
             Err(TryLockError::Error(error)) if error.kind() == std::io::ErrorKind::Unsupported => {
                 tracing::warn!("this file system has no locks; start no second run here: {}", path.display());
@@ -36,7 +36,7 @@ impl Lock {
     }
 }
 
-/// `status` looks whether the lock is held, and holds it for that moment: it is asked for more than once.
+/// Tries several times: `status` looks whether the lock is held, and holds it for that moment.
 fn try_lock(file: &File) -> Result<(), TryLockError> {
     for _ in 0..10 {
         match file.try_lock() {
@@ -47,25 +47,25 @@ fn try_lock(file: &File) -> Result<(), TryLockError> {
     file.try_lock()
 }
 
-/// Who is at work in a work folder.
+/// The run at work in a work folder, in its own words.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Holder(pub String);
 
 impl Holder {
-    /// The run at work, if there is one. Takes nothing and waits for nothing.
+    /// The run at work, if there is one. Takes no lock and waits for nothing.
     #[must_use]
-    pub fn of(work_dir: &Path) -> Option<Self> {
+    pub fn current(work_dir: &Path) -> Option<Self> {
         let mut file = File::open(work_dir.join("lock")).ok()?;
         match file.try_lock_shared() {
-            Err(TryLockError::WouldBlock) => Some(Self(told(&mut file))),
+            Err(TryLockError::WouldBlock) => Some(Self(holder_line(&mut file))),
             _ => None,
         }
     }
 }
 
-fn told(file: &mut File) -> String {
+fn holder_line(file: &mut File) -> String {
     let mut text = String::new();
-    // The holder's own words are a help, not a need.
+    // The holder's own words help people, but nothing depends on them.
     let _ = file.rewind().and_then(|()| file.take(1_000).read_to_string(&mut text));
     match text.lines().next() {
         Some(line) if !line.is_empty() => line.to_owned(),
@@ -91,13 +91,13 @@ mod tests {
     fn the_second_is_told_who_holds_it_and_the_lock_goes_with_its_holder() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("lock");
-        assert_eq!(Holder::of(dir.path()), None);
+        assert_eq!(Holder::current(dir.path()), None);
         let first = Lock::take(&path, "aim-batch 9.9").unwrap();
         let Err(WorkError::Held { holder, .. }) = Lock::take(&path, "aim-batch 9.9") else { panic!("not held") };
         assert!(holder.starts_with(&format!("aim-batch 9.9, process {} on ", std::process::id())), "{holder}");
-        assert_eq!(Holder::of(dir.path()), Some(Holder(holder)));
+        assert_eq!(Holder::current(dir.path()), Some(Holder(holder)));
         drop(first);
-        assert_eq!(Holder::of(dir.path()), None);
+        assert_eq!(Holder::current(dir.path()), None);
         assert!(Lock::take(&path, "aim-batch 9.9").is_ok());
     }
 }

@@ -1,4 +1,4 @@
-//! Predicted against true sizes, as Bland and Altman draw agreement.
+//! The figure `bland_altman`: errors against true sizes, as Bland and Altman (1986) draw agreement.
 
 use model::Level;
 use model::validation::ErrorSummary;
@@ -8,10 +8,10 @@ use super::grid::{Axis, Grid, draw_count};
 use super::legend::{Entry, Sample};
 use super::marks::{self, Drawn, Look, Mark, Symbol};
 use super::panel::Panel;
-use super::sample::{self, Erring, Sorted, What, bulk, erring};
+use super::sample::{self, Dimension, Erring, Sorted, bulk, erring};
 use super::scale::padded;
 use super::words::{counted, listed, number, signed};
-use super::{Made, NO_TRUTH};
+use super::{Attempt, NO_TRUTH};
 use crate::parquet::Results;
 
 const NAME: &str = "bland_altman";
@@ -21,8 +21,8 @@ const ZERO: Paint = Paint::line(Colour::Ink, 0.8).faint(0.5);
 const BIAS: Paint = Paint::line(Colour::Ink, 1.8);
 const LIMIT: Paint = Paint::line(Colour::Ink, 1.2).dashed("6 3");
 
-/// Fused sizes against their true ones, or those of single images where none is fused.
-pub(super) fn made(results: &Results) -> Made {
+/// Draws the errors of fused sizes against the true sizes, or of the sizes of single images where no size is fused.
+pub(super) fn draw(results: &Results) -> Attempt {
     let fused = Sorted::new(erring(&results.rows, Level::Fused));
     let (sorted, level) = if fused.is_empty() {
         (Sorted::new(erring(&results.rows, Level::Frame)), Level::Frame)
@@ -30,26 +30,26 @@ pub(super) fn made(results: &Results) -> Made {
         (fused, Level::Fused)
     };
     let Some([low, high]) = padded(sorted.all().map(|erring| erring.truth_mm), 0.06) else {
-        return Made::left_out(NAME, TITLE, NO_TRUTH);
+        return Attempt::left_out(NAME, TITLE, NO_TRUTH);
     };
-    // Room at the right for the values of bias and limits.
+    // There must be room at the right for the values of bias and limits.
     let x = [low, high + 0.3 * (high - low)];
-    let axes = sorted.whats.iter().map(|what| (what.name(), Axis::linear(domain(&sorted, *what))));
+    let axes = sorted.dimensions.iter().map(|dimension| (dimension.name(), Axis::linear(domain(&sorted, *dimension))));
     let grid = Grid {
         columns: sorted.method_names(),
         rows: axes.collect(),
         x: Axis::linear(x),
         x_label: "true size (mm)",
         y_label: "predicted \u{2212} true (mm)",
-        height: if sorted.whats.len() > 2 { 118.0 } else { 190.0 },
+        height: if sorted.dimensions.len() > 2 { 118.0 } else { 190.0 },
         legend: legend(&sorted),
     };
     let (mut drawing, panels) = grid.draw();
-    let cells = sorted.whats.len() * sorted.methods.len();
+    let cells = sorted.dimensions.len() * sorted.methods.len();
     let (mut drawn, mut beyond) = (Drawn::default(), 0);
-    for (what, row) in sorted.whats.iter().zip(&panels) {
+    for (dimension, row) in sorted.dimensions.iter().zip(&panels) {
         for (method, panel) in sorted.methods.iter().zip(row) {
-            let rows = sorted.cell(*what, *method);
+            let rows = sorted.cell(*dimension, *method);
             panel.level(&mut drawing, "zero", ZERO, 0.0);
             beyond += rows.iter().filter(|erring| !panel.y.holds(erring.error_mm)).count();
             let marks = rows.iter().map(|erring| mark(panel, *erring)).collect();
@@ -59,13 +59,13 @@ pub(super) fn made(results: &Results) -> Made {
             draw_count(&mut drawing, panel, rows.len());
         }
     }
-    Made::drawn(NAME, TITLE, [caption(&sorted, level, beyond) + &drawn.remark(), alt(&sorted)], drawing)
+    Attempt::drawn(NAME, TITLE, [caption(&sorted, level, beyond) + &drawn.remark(), alt(&sorted)], drawing)
 }
 
-/// Holds the limits of agreement of every method, too.
-fn domain(sorted: &Sorted<'_>, what: What) -> [f64; 2] {
-    let errors: Vec<f64> = sorted.of_what(what).map(|erring| erring.error_mm).collect();
-    let limits = sorted.methods.iter().filter_map(|method| summary(sorted.cell(what, *method))?.limits).flatten();
+/// The domain of errors in mm, which holds the limits of agreement of every method as well.
+fn domain(sorted: &Sorted<'_>, dimension: Dimension) -> [f64; 2] {
+    let errors: Vec<f64> = sorted.of_dimension(dimension).map(|erring| erring.error_mm).collect();
+    let limits = sorted.methods.iter().filter_map(|method| summary(sorted.cell(dimension, *method))?.limits).flatten();
     let of_errors = bulk(&errors).unwrap_or([-1.0, 1.0]);
     padded(limits.chain(of_errors), 0.14).unwrap_or(of_errors)
 }
@@ -79,11 +79,11 @@ fn mark<'a>(panel: &Panel, erring: Erring<'a>) -> Mark<Erring<'a>> {
     if !panel.y.holds(erring.error_mm) {
         look = Look { symbol: if erring.error_mm > 0.0 { Symbol::Above } else { Symbol::Below }, ..look };
     }
-    let (x, y) = (panel.x.at(erring.truth_mm), panel.y.at(erring.error_mm));
+    let (x, y) = (panel.x.place(erring.truth_mm), panel.y.place(erring.error_mm));
     Mark { x, y, look, weight: erring.error_mm.abs(), of: erring }
 }
 
-/// Bias and limits, with their values at the right.
+/// Draws the lines of bias and limits, with their values at the right.
 fn draw_agreement(drawing: &mut Drawing, panel: &Panel, rows: &[Erring<'_>]) {
     let Some(summary) = summary(rows) else { return };
     panel.level(drawing, "bias", BIAS, summary.bias);
@@ -93,8 +93,8 @@ fn draw_agreement(drawing: &mut Drawing, panel: &Panel, rows: &[Erring<'_>]) {
     }
     let mut taken: Vec<f64> = Vec::new();
     for value in [summary.bias, low, high] {
-        // A label that would lie on another is left out: table accuracy has the numbers.
-        let y = panel.y.at(value) - 3.0;
+        // A label that would lie on another one is left out, since the table accuracy has the numbers.
+        let y = panel.y.place(value) - 3.0;
         let is_free = taken.iter().all(|taken| (taken - y).abs() >= 11.0) && y - 8.0 >= panel.top();
         if panel.y.holds(value) && is_free {
             drawing.text(Text::new(panel.right() - 2.0, y, Anchor::End, signed(value, 1)).small());
@@ -131,12 +131,12 @@ fn caption(sorted: &Sorted<'_>, level: Level, beyond: usize) -> String {
 
 fn alt(sorted: &Sorted<'_>) -> String {
     let method = sorted.methods[sorted.methods.len() - 1];
-    let words = |what: &What| {
-        let summary = summary(sorted.cell(*what, method))?;
+    let words = |dimension: &Dimension| {
+        let summary = summary(sorted.cell(*dimension, method))?;
         let limits = summary.limits.map(|[low, high]| format!(" ({} to {})", number(low, 1), number(high, 1)));
-        Some(format!("{} {} mm{}", what.name(), signed(summary.bias, 1), limits.unwrap_or_default()))
+        Some(format!("{} {} mm{}", dimension.name(), signed(summary.bias, 1), limits.unwrap_or_default()))
     };
-    let all: Vec<String> = sorted.whats.iter().filter_map(words).collect();
+    let all: Vec<String> = sorted.dimensions.iter().filter_map(words).collect();
     format!(
         "Plots of predicted less true size against true size. Bias and limits of agreement of method {method}: {}.",
         listed(&all)

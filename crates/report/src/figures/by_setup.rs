@@ -1,4 +1,4 @@
-//! Error against pitch, and against the height of the camera.
+//! The figures `error_by_pitch` and `error_by_height`: errors against the pitch, and against the height of the camera.
 
 use std::collections::BTreeMap;
 
@@ -9,11 +9,11 @@ use super::grid::{Axis, Grid, draw_count};
 use super::legend::{Entry, Sample};
 use super::marks::{self, Drawn, Look, Mark, Symbol};
 use super::panel::Panel;
-use super::sample::{self, Erring, Sorted, What, bulk, erring};
+use super::sample::{self, Dimension, Erring, Sorted, bulk, erring};
 use super::scale::{is_drawable, padded};
 use super::settings::Window;
 use super::words::{counted, listed, signed};
-use super::{Made, NO_TRUTH};
+use super::{Attempt, NO_TRUTH};
 use crate::parquet::Results;
 use crate::tables::{height_band_cm, pitch_band_deg};
 
@@ -22,20 +22,20 @@ const WINDOW: Paint = Paint::line(Colour::Ink, 1.0).dashed("2 3");
 const MEAN: Paint = Paint::line(Colour::Ink, 2.2);
 const SPREAD: Paint = Paint::area(Colour::Ink, 0.14);
 
-/// What the errors are held against.
+/// The pitch or the height, over which errors are drawn.
 struct Against {
     name: &'static str,
     title: &'static str,
     x_label: &'static str,
     what: &'static str,
-    /// The value of a row.
+    /// The pitch or height of a row.
     value: fn(&ResultRow) -> Option<f64>,
-    /// The borders of the row's band, as in the table of the same name; equal ones for a nominal value.
+    /// The borders of the row's band, as in the table of the same name. They are equal where the value is nominal.
     band: fn(&ResultRow) -> Option<[f64; 2]>,
 }
 
-/// Errors of single images by pitch.
-pub(super) fn by_pitch(results: &Results) -> Made {
+/// Draws the errors of single images by pitch.
+pub(super) fn by_pitch(results: &Results) -> Attempt {
     let against = Against {
         name: "error_by_pitch",
         title: "Error by measured pitch",
@@ -44,11 +44,11 @@ pub(super) fn by_pitch(results: &Results) -> Made {
         value: |row| row.pitch_deg,
         band: pitch_band_deg,
     };
-    made(&against, results, Window::of(results))
+    draw(&against, results, Window::from_results(results))
 }
 
-/// Errors of single images by the measured height of the camera above the table.
-pub(super) fn by_height(results: &Results) -> Made {
+/// Draws the errors of single images by the measured height of the camera above the table.
+pub(super) fn by_height(results: &Results) -> Attempt {
     let against = Against {
         name: "error_by_height",
         title: "Error by height of the camera above the table",
@@ -57,19 +57,19 @@ pub(super) fn by_height(results: &Results) -> Made {
         value: |row| Some(row.range_mm? / 10.0 * row.pitch_deg?.to_radians().sin()),
         band: height_band_cm,
     };
-    made(&against, results, None)
+    draw(&against, results, None)
 }
 
-fn made(against: &Against, results: &Results, window: Option<Window>) -> Made {
+fn draw(against: &Against, results: &Results, window: Option<Window>) -> Attempt {
     let value = |row: &ResultRow| (against.value)(row).filter(|value| is_drawable(*value));
     let sorted = Sorted::new(erring(&results.rows, Level::Frame).filter(|erring| value(erring.row).is_some()));
     let x = padded(sorted.all().filter_map(|erring| value(erring.row)), 0.06);
     let Some(x) = x.filter(|_| !sorted.is_empty()) else {
-        return Made::left_out(against.name, against.title, NO_TRUTH);
+        return Attempt::left_out(against.name, against.title, NO_TRUTH);
     };
-    let axes = sorted.whats.iter().map(|what| {
-        let errors: Vec<f64> = sorted.of_what(*what).map(Erring::error_pct).collect();
-        (what.name(), Axis::linear(bulk(&errors).unwrap_or([-1.0, 1.0])))
+    let axes = sorted.dimensions.iter().map(|dimension| {
+        let errors: Vec<f64> = sorted.of_dimension(*dimension).map(Erring::error_pct).collect();
+        (dimension.name(), Axis::linear(bulk(&errors).unwrap_or([-1.0, 1.0])))
     });
     let grid = Grid {
         columns: sorted.method_names(),
@@ -77,16 +77,16 @@ fn made(against: &Against, results: &Results, window: Option<Window>) -> Made {
         x: Axis::linear(x),
         x_label: against.x_label,
         y_label: "error (%)",
-        height: if sorted.whats.len() > 2 { 118.0 } else { 190.0 },
+        height: if sorted.dimensions.len() > 2 { 118.0 } else { 190.0 },
         legend: legend(&sorted, window),
     };
     let (mut drawing, panels) = grid.draw();
-    let most = marks::MOST_MARKS / (sorted.whats.len() * sorted.methods.len());
-    let titles = marks::MOST_TITLES / (sorted.whats.len() * sorted.methods.len());
+    let most = marks::MOST_MARKS / (sorted.dimensions.len() * sorted.methods.len());
+    let titles = marks::MOST_TITLES / (sorted.dimensions.len() * sorted.methods.len());
     let (mut drawn, mut beyond) = (Drawn::default(), 0);
-    for (what, row) in sorted.whats.iter().zip(&panels) {
+    for (dimension, row) in sorted.dimensions.iter().zip(&panels) {
         for (method, panel) in sorted.methods.iter().zip(row) {
-            let rows = sorted.cell(*what, *method);
+            let rows = sorted.cell(*dimension, *method);
             window.iter().for_each(|window| window.draw_upright(&mut drawing, panel, WINDOW));
             panel.level(&mut drawing, "zero", ZERO, 0.0);
             draw_bands(&mut drawing, panel, rows, against);
@@ -97,22 +97,22 @@ fn made(against: &Against, results: &Results, window: Option<Window>) -> Made {
         }
     }
     let captions = [caption(against, &sorted, window, beyond) + &drawn.remark(), alt(against, &sorted)];
-    Made::drawn(against.name, against.title, captions, drawing)
+    Attempt::drawn(against.name, against.title, captions, drawing)
 }
 
 fn mark<'a>(panel: &Panel, erring: Erring<'a>, x: f64) -> Mark<Erring<'a>> {
     let error = erring.error_pct();
     let mut look = sample::look(erring.row.kind, erring.row.selected);
     let [lower, upper] = panel.y.range();
-    let y = panel.y.at(error);
+    let y = panel.y.place(error);
     if !panel.y.holds(error) {
         look =
             Look { symbol: if (y - upper).abs() < (y - lower).abs() { Symbol::Above } else { Symbol::Below }, ..look };
     }
-    Mark { x: panel.x.at(x), y, look, weight: error.abs(), of: erring }
+    Mark { x: panel.x.place(x), y, look, weight: error.abs(), of: erring }
 }
 
-/// Mean and SD of every band.
+/// Draws the mean and the SD of the errors in every band.
 fn draw_bands(drawing: &mut Drawing, panel: &Panel, rows: &[Erring<'_>], against: &Against) {
     let mut bands: BTreeMap<[i64; 2], ([f64; 2], Vec<f64>)> = BTreeMap::new();
     for erring in rows {
@@ -124,7 +124,7 @@ fn draw_bands(drawing: &mut Drawing, panel: &Panel, rows: &[Erring<'_>], against
     let (mut means, mut spreads) = (String::new(), String::new());
     for (band, errors) in bands.values() {
         let Some(stats) = ErrorStats::from_errors(errors) else { continue };
-        // A nominal value is one value; its mean needs some width to be seen.
+        // A nominal value has no width, but the bar of its mean needs some to be seen.
         let [from, to] = *band;
         let ends = if to > from { [from, to] } else { [from - 2.0, from + 2.0] };
         if panel.y.holds(stats.mean) {
@@ -173,11 +173,11 @@ fn caption(against: &Against, sorted: &Sorted<'_>, window: Option<Window>, beyon
 
 fn alt(against: &Against, sorted: &Sorted<'_>) -> String {
     let method = if sorted.methods.contains(&Method::Best) { Method::Best } else { sorted.methods[0] };
-    let bias = |what: &What| {
-        let errors: Vec<f64> = sorted.cell(*what, method).iter().map(Erring::error_pct).collect();
-        ErrorStats::from_errors(&errors).map(|stats| format!("{} {} %", what.name(), signed(stats.mean, 1)))
+    let bias = |dimension: &Dimension| {
+        let errors: Vec<f64> = sorted.cell(*dimension, method).iter().map(Erring::error_pct).collect();
+        ErrorStats::from_errors(&errors).map(|stats| format!("{} {} %", dimension.name(), signed(stats.mean, 1)))
     };
-    let biases: Vec<String> = sorted.whats.iter().filter_map(bias).collect();
+    let biases: Vec<String> = sorted.dimensions.iter().filter_map(bias).collect();
     format!(
         "Scatter plots of the error in per cent against the {}. Mean errors of method {method}: {}.",
         against.what,

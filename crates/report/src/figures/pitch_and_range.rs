@@ -1,4 +1,4 @@
-//! Pitch and range over time, session by session (Fig. 2 of the paper).
+//! The figure `pitch_and_range`: pitch and range over time, session by session (Fig. 2 of the paper).
 
 use std::collections::BTreeMap;
 
@@ -14,15 +14,15 @@ use super::panel::Panel;
 use super::scale::{Scale, extremes, is_drawable, padded, time, time_ticks};
 use super::settings::Window;
 use super::words::{counted, estimated_width, fitted, named, number};
-use super::{Made, legend::Sample as Sampled};
+use super::{Attempt, legend::Sample as Sampled};
 use crate::parquet::Results;
 
 const NAME: &str = "pitch_and_range";
 const TITLE: &str = "Pitch and range over time";
 
-/// Sessions that have panels.
+/// Greatest number of sessions that have panels.
 const MOST_SESSIONS: usize = 12;
-/// Images of a session that are drawn one by one; of more, their smallest and largest values.
+/// Greatest number of images of a session that are drawn one by one. Of more, the smallest and largest values are drawn.
 const MOST_IMAGES: usize = 250;
 
 const SELECTED: Look = Look::filled(Symbol::Circle, Colour::Blue);
@@ -38,7 +38,7 @@ const PITCH: f64 = 84.0;
 const RANGE: f64 = 64.0;
 const BLOCK: f64 = HEADING + PITCH + 10.0 + RANGE + 34.0;
 
-/// What the panels of all sessions share.
+/// Scales and widths that the panels of all sessions share.
 struct Shared {
     pitch_deg: [f64; 2],
     range_cm: [f64; 2],
@@ -47,8 +47,8 @@ struct Shared {
     width: f64,
 }
 
-/// Pitch and range of every image over its time.
-pub(super) fn made(results: &Results, frames: &[FrameRow]) -> Made {
+/// Draws pitch and range of every image over its time.
+pub(super) fn draw(results: &Results, frames: &[FrameRow]) -> Attempt {
     let mut sessions: BTreeMap<&str, Vec<&FrameRow>> = BTreeMap::new();
     for frame in frames {
         sessions.entry(&frame.session).or_default().push(frame);
@@ -59,9 +59,9 @@ pub(super) fn made(results: &Results, frames: &[FrameRow]) -> Made {
         sessions.into_iter().filter(|(_, frames)| timed(frames)).take(MOST_SESSIONS).collect();
     if shown.is_empty() {
         let reason = if frames.is_empty() { NO_LEDGER } else { "no image has a time" };
-        return Made::left_out(NAME, TITLE, reason);
+        return Attempt::left_out(NAME, TITLE, reason);
     }
-    let shared = shared(&shown, Window::of(results));
+    let shared = shared(&shown, Window::from_results(results));
     let entries = legend_entries(shared.window);
     let top = 8.0 + legend::height(&entries, PAGE - LEFT);
     #[expect(clippy::cast_precision_loss, reason = "a handful of rows")]
@@ -72,7 +72,7 @@ pub(super) fn made(results: &Results, frames: &[FrameRow]) -> Made {
         draw_session(&mut drawing, &shared, (name, frames), index, top);
     }
     drawing.text(Text::new(0.5 * (LEFT + PAGE), height - 6.0, Anchor::Middle, "time of the image (UTC)"));
-    Made::drawn(NAME, TITLE, [caption(all, &shown, shared.window), alt(&shown)], drawing)
+    Attempt::drawn(NAME, TITLE, [caption(all, &shown, shared.window), alt(&shown)], drawing)
 }
 
 fn shared(shown: &[(&str, Vec<&FrameRow>)], window: Option<Window>) -> Shared {
@@ -153,14 +153,14 @@ fn draw_heading(drawing: &mut Drawing, (name, frames): (&str, &[&FrameRow]), pan
     drawing.text(Text::new(panel.right(), panel.top() - 6.0, Anchor::End, right).small());
 }
 
-/// One mark for each image, or the extremes of many; images without the value stand at the lower edge.
+/// Draws one mark for each image, or the extremes of many. Images without a value stand at the lower edge.
 fn draw_values(drawing: &mut Drawing, panel: &Panel, frames: &[&FrameRow], value: impl Fn(&FrameRow) -> Option<f64>) {
-    let timed = || frames.iter().filter_map(|frame| Some((*frame, panel.x.at(posix_s(frame)?))));
+    let timed = || frames.iter().filter_map(|frame| Some((*frame, panel.x.place(posix_s(frame)?))));
     if frames.len() > MOST_IMAGES {
         let samples: Vec<Sample> = timed()
             .map(|(frame, x)| Sample {
                 x,
-                y: value(frame).map(|value| panel.y.at(value)),
+                y: value(frame).map(|value| panel.y.place(value)),
                 selected: is_selected(frame),
             })
             .collect();
@@ -168,7 +168,7 @@ fn draw_values(drawing: &mut Drawing, panel: &Panel, frames: &[&FrameRow], value
         return;
     }
     let mark = |(frame, x)| {
-        let place = value(frame).map(|value| panel.y.at(value));
+        let place = value(frame).map(|value| panel.y.place(value));
         let look = match place {
             None => WITHOUT,
             Some(_) if is_selected(frame) => SELECTED,
@@ -177,7 +177,7 @@ fn draw_values(drawing: &mut Drawing, panel: &Panel, frames: &[&FrameRow], value
         let weight = if is_selected(frame) { 1.0 } else { 0.0 };
         Mark { x, y: place.unwrap_or_else(|| panel.bottom() - 4.0), look, weight, of: frame }
     };
-    // Twice the panels of one session hold no more marks than the figure may have.
+    // With two panels for each session there are then no more marks than the figure may have.
     let titles = marks::MOST_TITLES / (2 * MOST_SESSIONS);
     marks::draw(drawing, timed().map(mark).collect(), [MOST_IMAGES, titles], |frame| title(frame));
 }

@@ -1,8 +1,8 @@
-//! Which share of each session's images is selected.
+//! The figure `selected_share`: the share of each session's images that is selected.
 
 use model::{FlowStep, FrameRow, StudyFlow};
 
-use super::Made;
+use super::Attempt;
 use super::drawing::{Anchor, Colour, Drawing, Paint, Text, short};
 use super::flow::NO_LEDGER;
 use super::grid::PAGE;
@@ -13,12 +13,12 @@ use super::words::{counted, fitted, named};
 const NAME: &str = "selected_share";
 const TITLE: &str = "Images selected, by session";
 
-/// Up to so many sessions have a bar of their own.
+/// Greatest number of sessions for which each has a bar of its own.
 const MOST_BARS: usize = 40;
 const BAR: Paint = Paint::area(Colour::Blue, 0.75);
 const BAR_HEIGHT: f64 = 16.0;
 const NAMES: f64 = 190.0;
-/// Classes of 5 % where there are more sessions.
+/// Number of classes of the histogram that stands for more sessions; each is 5 % wide.
 const CLASSES: usize = 20;
 
 struct Session {
@@ -28,10 +28,10 @@ struct Session {
     share_pct: f64,
 }
 
-/// A bar for each session, or how many sessions have which share.
-pub(super) fn made(frames: &[FrameRow]) -> Made {
+/// Draws a bar for each session, or a histogram of the shares where there are many sessions.
+pub(super) fn draw(frames: &[FrameRow]) -> Attempt {
     if frames.is_empty() {
-        return Made::left_out(NAME, TITLE, NO_LEDGER);
+        return Attempt::left_out(NAME, TITLE, NO_LEDGER);
     }
     let mut study = StudyFlow::default();
     frames.iter().for_each(|frame| study.add(frame));
@@ -46,7 +46,7 @@ pub(super) fn made(frames: &[FrameRow]) -> Made {
         .collect();
     sessions.sort_by(|a, b| a.share_pct.total_cmp(&b.share_pct).then_with(|| a.name.cmp(&b.name)));
     let drawing = if sessions.len() > MOST_BARS { histogram(&sessions) } else { bars(&sessions) };
-    Made::drawn(NAME, TITLE, [caption(&sessions), alt(&sessions)], drawing)
+    Attempt::drawn(NAME, TITLE, [caption(&sessions), alt(&sessions)], drawing)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "a count of sessions is far below 2^53")]
@@ -57,7 +57,7 @@ fn bars(sessions: &[Session]) -> Drawing {
         Panel { x: Scale::linear([0.0, 100.0], [NAMES, PAGE - 84.0]), y: Scale::linear([0.0, 1.0], [bottom, 6.0]) };
     for (index, session) in sessions.iter().enumerate() {
         let top = 8.0 + BAR_HEIGHT * index as f64;
-        let end = panel.x.at(session.share_pct);
+        let end = panel.x.place(session.share_pct);
         let path = format!("M{},{}H{}v11H{}z", short(NAMES), short(top + 2.0), short(end), short(NAMES));
         drawing.path("kept", BAR, path);
         let full = named(&session.name);

@@ -1,10 +1,10 @@
-//! Sizes with their intervals, object by object.
+//! The figure `sizes`: fused sizes with their intervals, object by object.
 
 use std::collections::BTreeMap;
 
 use model::{Level, Method, Quantity, ResultRow};
 
-use super::Made;
+use super::Attempt;
 use super::coverage::K_95;
 use super::drawing::{Anchor, Colour, Drawing, Paint, Text, short};
 use super::grid::PAGE;
@@ -19,11 +19,12 @@ use crate::parquet::Results;
 const NAME: &str = "sizes";
 const TITLE: &str = "Sizes with their uncertainties";
 
-/// Panels, and sizes in a panel, at most.
+/// Greatest number of panels.
 const MOST_PANELS: usize = 24;
+/// Greatest number of sizes in a panel.
 const MOST_ROWS: usize = 16;
 
-/// Room for names, at most.
+/// Greatest width of names, in units of the page.
 const NAMES: f64 = 146.0;
 const GAP: f64 = 16.0;
 const COLUMN: f64 = 0.5 * (PAGE - GAP);
@@ -37,7 +38,7 @@ const TRUTH: Paint = Paint::line(Colour::Ink, 1.2).dashed("6 3");
 struct Size<'a> {
     row: &'a ResultRow,
     predicted_mm: f64,
-    /// Half of the interval; none without an uncertainty.
+    /// Half of the width of the 95 % interval; none without an uncertainty.
     half_mm: Option<f64>,
 }
 
@@ -48,13 +49,13 @@ struct Block<'a> {
     sizes: Vec<Size<'a>>,
 }
 
-/// Fused sizes of every object and quantity by one method, with 95 % intervals.
-pub(super) fn made(results: &Results) -> Made {
+/// Draws the fused sizes of every object and quantity by one method, with 95 % intervals.
+pub(super) fn draw(results: &Results) -> Attempt {
     let fused = || results.rows.iter().filter(|row| row.level == Level::Fused && row.predicted_mm.is_some());
-    // The method that the program would take, else the first that there is.
+    // The method is the program's own choice (best), or else the first that there is.
     let method =
         fused().map(|row| row.method).max_by_key(|method| (*method == Method::Best, std::cmp::Reverse(*method)));
-    let Some(method) = method else { return Made::left_out(NAME, TITLE, "no size is fused from selected images") };
+    let Some(method) = method else { return Attempt::left_out(NAME, TITLE, "no size is fused from selected images") };
     let blocks = blocks(fused().filter(|row| row.method == method));
     let all = blocks.iter().map(|block| block.sizes.len()).sum();
     let shown = &blocks[..blocks.len().min(MOST_PANELS)];
@@ -70,7 +71,7 @@ pub(super) fn made(results: &Results) -> Made {
         draw_block(&mut drawing, block, [left + names, left + COLUMN - 8.0], *place);
     }
     drawing.text(Text::new(0.5 * PAGE, height - 6.0, Anchor::Middle, "size (mm)"));
-    Made::drawn(NAME, TITLE, [caption(method, all, &blocks), alt(shown)], drawing)
+    Attempt::drawn(NAME, TITLE, [caption(method, all, &blocks), alt(shown)], drawing)
 }
 
 fn blocks<'a>(rows: impl Iterator<Item = &'a ResultRow>) -> Vec<Block<'a>> {
@@ -84,14 +85,14 @@ fn blocks<'a>(rows: impl Iterator<Item = &'a ResultRow>) -> Vec<Block<'a>> {
     blocks.into_iter().map(block).collect()
 }
 
-/// Width of the longest name.
+/// Width of the longest name, in units of the page.
 fn names_width(blocks: &[Block<'_>]) -> f64 {
     let names = blocks.iter().flat_map(|block| block.shown().iter().map(|size| block.name(size.row)));
     names.map(|name| estimated_width(&name, 10.5) + 12.0).fold(60.0, f64::max).min(NAMES)
 }
 
 impl Block<'_> {
-    /// The session, and the rater where the block has several.
+    /// The name of a size: its session, and its rater where the block has several.
     fn name(&self, row: &ResultRow) -> String {
         let several = self.shown().iter().any(|size| size.row.rater != self.sizes[0].row.rater);
         if several { format!("{}, {}", named(&row.session), named(&row.rater)) } else { named(&row.session) }
@@ -101,14 +102,14 @@ impl Block<'_> {
         &self.sizes[..self.sizes.len().min(MOST_ROWS)]
     }
 
-    /// Height of its panel.
+    /// Height of the block's panel, in units of the page.
     #[expect(clippy::cast_precision_loss, reason = "a handful of lines")]
     fn height(&self) -> f64 {
         LINE * self.shown().len() as f64 + 6.0
     }
 }
 
-/// Upper and lower edge of every panel, two beside each other.
+/// Upper and lower edge of every panel. Two panels stand beside each other.
 fn places(blocks: &[Block<'_>], top: f64) -> Vec<(f64, f64)> {
     let mut upper = top;
     let mut places = Vec::new();
@@ -149,15 +150,15 @@ fn draw_block(drawing: &mut Drawing, block: &Block<'_>, [left, right]: [f64; 2],
 fn draw_size(drawing: &mut Drawing, panel: &Panel, size: &Size<'_>, y: f64) {
     let look = sample::look(size.row.kind, true);
     if let Some(half) = size.half_mm {
-        let [low, high] = [size.predicted_mm - half, size.predicted_mm + half].map(|end| short(panel.x.at(end)));
+        let [low, high] = [size.predicted_mm - half, size.predicted_mm + half].map(|end| short(panel.x.place(end)));
         let whisker = |x: &str| format!("M{x},{}v7", short(y - 3.5));
         let bar = format!("M{low},{}H{high}", short(y));
         drawing.path("interval", interval(look), bar + &whisker(&low) + &whisker(&high));
     }
     if let Some(truth) = truth(size) {
-        drawing.path("truth", TRUTH, format!("M{},{}v{LINE}", short(panel.x.at(truth)), short(y - 0.5 * LINE)));
+        drawing.path("truth", TRUTH, format!("M{},{}v{LINE}", short(panel.x.place(truth)), short(y - 0.5 * LINE)));
     }
-    drawing.path("marks", look.paint, look.symbol.path(panel.x.at(size.predicted_mm), y));
+    drawing.path("marks", look.paint, look.symbol.path(panel.x.place(size.predicted_mm), y));
 }
 
 const fn interval(look: Look) -> Paint {

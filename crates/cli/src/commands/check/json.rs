@@ -1,4 +1,4 @@
-//! What a check found, for programs.
+//! The result of a check, for programs.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::Verdict;
 use crate::commands::PROGRAM;
 
-/// Rises when a key is removed, renamed, or changes its meaning.
+/// Version of the JSON. It rises when a key is removed, renamed, or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
 
 #[derive(Serialize)]
@@ -23,7 +23,7 @@ struct Document<'a> {
     flow: Steps,
 }
 
-/// Numbers of sessions.
+/// Numbers of sessions: all, and those of each verdict.
 #[derive(Serialize)]
 struct Verdicts {
     sessions: usize,
@@ -40,7 +40,7 @@ struct Session<'a> {
     flow: Option<Steps>,
 }
 
-/// Numbers of images: those that reach each step, and those left out by each reason.
+/// Numbers of images: those that reach each step of the flow, and those that each reason leaves out.
 #[derive(Serialize)]
 struct Steps {
     steps: BTreeMap<&'static str, usize>,
@@ -48,7 +48,7 @@ struct Steps {
 }
 
 impl Steps {
-    fn of(flow: &Flow) -> Self {
+    fn from_flow(flow: &Flow) -> Self {
         let left_out = FrameReason::ALL.iter().filter(|reason| reason.ends().is_some());
         Self {
             steps: FlowStep::ALL.iter().map(|step| (step.code(), flow.images_at(*step))).collect(),
@@ -60,13 +60,13 @@ impl Steps {
     }
 }
 
-/// One document.
+/// The result of a check as a JSON document.
 pub fn text(study: &Study, checked: &Checked) -> serde_json::Result<String> {
     let flows: BTreeMap<&str, &Flow> = checked.flow.sessions().collect();
     let session = |status| Session {
-        verdict: Verdict::of(status),
+        verdict: Verdict::from_status(status),
         status,
-        flow: flows.get(status.session.as_str()).map(|flow| Steps::of(flow)),
+        flow: flows.get(status.session.as_str()).map(|flow| Steps::from_flow(flow)),
     };
     serde_json::to_string_pretty(&Document {
         schema_version: SCHEMA_VERSION,
@@ -80,6 +80,6 @@ pub fn text(study: &Study, checked: &Checked) -> serde_json::Result<String> {
         },
         sessions: checked.sessions.iter().map(session).collect(),
         study_problems: &checked.study,
-        flow: Steps::of(&checked.flow.total()),
+        flow: Steps::from_flow(&checked.flow.total()),
     })
 }

@@ -1,4 +1,4 @@
-//! `check`: everything that a run would lose, before it.
+//! `check`: shows, before a run, everything that the run would lose.
 
 mod json;
 mod text;
@@ -6,13 +6,34 @@ mod text;
 use anyhow::anyhow;
 use model::{RunMetadata, SessionStatus};
 use pipeline::{Checked, Study, SurveyOptions};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
+use super::settings::SettingsArgs;
 use super::{PROGRAM, outcome, print, settings, stop_on_signals, survey_failure};
-use crate::args::CheckArgs;
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
-/// Checks the study, and tells what would be lost.
+/// The arguments of `check`.
+#[derive(Debug, clap::Args)]
+pub struct CheckArgs {
+    /// Folder of the study (docs/study.md); nothing is written into it
+    pub study: PathBuf,
+    /// Sessions at a time; default: the cores that this process may use
+    #[arg(short, long, env = "AIM_BATCH_JOBS")]
+    pub jobs: Option<NonZeroUsize>,
+    /// Also show what is worth knowing and costs nothing
+    #[arg(long)]
+    pub notes: bool,
+    /// JSON on stdout (docs/inspect.md)
+    #[arg(long)]
+    pub json: bool,
+    /// Settings in place of study.toml's
+    #[command(flatten)]
+    pub settings: SettingsArgs,
+}
+
+/// Checks the study, and prints what would be lost, as text or as JSON. Fails where no session could be used.
 pub fn run(args: &CheckArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let study = settings::load(&args.study, &args.settings)?;
     let options = SurveyOptions { jobs: args.jobs, program: PROGRAM.to_owned(), stop: stop_on_signals()? };
@@ -28,7 +49,7 @@ pub fn run(args: &CheckArgs, bars: &Bars) -> Result<Outcome, Failure> {
     Ok(outcome(checked.sessions.iter().any(SessionStatus::has_losses)))
 }
 
-/// As a run would give them, but for sizes: for the tables of images.
+/// Results without sizes, as a run would give them, for the tables of images.
 fn results(study: &Study, checked: &Checked) -> ::report::Results {
     let metadata = RunMetadata {
         program: PROGRAM.to_owned(),
@@ -43,7 +64,7 @@ fn results(study: &Study, checked: &Checked) -> ::report::Results {
     ::report::Results { rows: Vec::new(), metadata, flow: Some(checked.flow.clone()) }
 }
 
-/// How a session would fare.
+/// How a session would fare in a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 enum Verdict {
@@ -53,7 +74,7 @@ enum Verdict {
 }
 
 impl Verdict {
-    fn of(session: &SessionStatus) -> Self {
+    fn from_status(session: &SessionStatus) -> Self {
         match (session.failed, session.has_losses()) {
             (true, _) => Self::Fails,
             (false, true) => Self::LosesData,
@@ -71,6 +92,6 @@ impl Verdict {
 
     /// Number of sessions with this verdict.
     fn count(self, sessions: &[SessionStatus]) -> usize {
-        sessions.iter().filter(|session| Self::of(session) == self).count()
+        sessions.iter().filter(|session| Self::from_status(session) == self).count()
     }
 }

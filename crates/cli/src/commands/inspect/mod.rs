@@ -1,4 +1,4 @@
-//! `inspect`: what is in a recording, or in those of a study.
+//! `inspect`: shows the content of a recording, or of those of a study.
 
 mod clock;
 mod sparkline;
@@ -7,7 +7,8 @@ mod words;
 
 use std::fs::File;
 use std::io::Read;
-use std::path::Path;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use model::Problem;
@@ -16,16 +17,29 @@ use pipeline::{Study, SurveyOptions, inspect_file, inspect_study};
 use serde::Serialize;
 
 use super::{PROGRAM, outcome, print, stop_on_signals, survey_failure};
-use crate::args::InspectArgs;
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
-/// Rises when a key is removed, renamed, or changes its meaning.
+/// The arguments of `inspect`.
+#[derive(Debug, clap::Args)]
+pub struct InspectArgs {
+    /// MCAP file that ingest or run wrote, or folder of a study; nothing is written there
+    #[arg(value_name = "FILE|STUDY")]
+    pub path: PathBuf,
+    /// Sessions of a study at a time; default: the cores that this process may use
+    #[arg(short, long, env = "AIM_BATCH_JOBS")]
+    pub jobs: Option<NonZeroUsize>,
+    /// JSON on stdout (docs/inspect.md)
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Version of the JSON. It rises when a key is removed, renamed, or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
-/// How MCAP files begin.
+/// The bytes that every MCAP file begins with.
 const MCAP_MAGIC: &[u8] = b"\x89MCAP0\r\n";
 
-/// Inspects, and tells what is there.
+/// Inspects a recording, or all of a study, and prints the facts, as text or as JSON. Fails where no session could be used.
 pub fn run(args: &InspectArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let inspected = if args.path.is_dir() {
         let study = study(&args.path)?;
@@ -58,7 +72,7 @@ fn study(folder: &Path) -> Result<Study, Failure> {
     Study::load(folder, |_| {}).map_err(Failure::usage)
 }
 
-/// What is no MCAP file at all is not called a damaged one.
+/// Refuses a file that is no MCAP file at all, which would otherwise be called a damaged one.
 fn require_mcap(path: &Path) -> Result<(), Failure> {
     let mut start = Vec::new();
     let file = File::open(path).with_context(|| format!("cannot open {}", path.display())).map_err(Failure::Usage)?;
@@ -83,14 +97,14 @@ struct Session<'a> {
     problem: Option<&'a Problem>,
 }
 
-impl<'a> Session<'a> {
-    fn of(inspected: &'a Inspected) -> Self {
+impl<'a> From<&'a Inspected> for Session<'a> {
+    fn from(inspected: &'a Inspected) -> Self {
         let Inspected { session, facts } = inspected;
         Self { session, facts: facts.as_ref().ok(), problem: facts.as_ref().err() }
     }
 }
 
 fn json(inspected: &[Inspected]) -> serde_json::Result<String> {
-    let sessions = inspected.iter().map(Session::of).collect();
+    let sessions = inspected.iter().map(Session::from).collect();
     serde_json::to_string_pretty(&Document { schema_version: SCHEMA_VERSION, program: PROGRAM, sessions })
 }

@@ -1,21 +1,21 @@
-//! `measure --auto`: rims found in the picture, and their sizes.
+//! `measure --auto`: finds rims in the picture, and measures them.
 
 use anyhow::{Context, anyhow};
 use ingest::Picture;
 use model::{Container, Kind, Method, Shape, View};
-use pipeline::rims::{HeightSource, Rim, find_rims_of};
 use pipeline::study::UncertaintySpec;
+use rims::{HeightSource, Rim, find_rims_of};
 
-use super::super::{outcome, print, tell};
+use super::super::{outcome, print, print_message};
+use super::args::MeasureArgs;
 use super::overlay;
 use super::size::{Found, Size, describe, text};
-use crate::args::MeasureArgs;
 use crate::exit::{Failure, Outcome};
 
 /// The methods for a rim alone, the one with fewer assumptions first.
 const METHODS: [Method; 2] = [Method::Ray, Method::Paper];
 
-/// Finds, measures and prints.
+/// Finds the rims in the picture, and prints their sizes. A rim without a size is a loss.
 pub fn run(args: &MeasureArgs, view: &View, bytes: &[u8]) -> Result<Outcome, Failure> {
     if args.kind == Some(Kind::Box) {
         return Err(Failure::Usage(anyhow!("--auto finds no boxes: mark them, and give --marks")));
@@ -38,7 +38,7 @@ pub fn run(args: &MeasureArgs, view: &View, bytes: &[u8]) -> Result<Outcome, Fai
         let object = format!("auto-{number}");
         let kind = args.kind.unwrap_or(rim.kind);
         let container = Container { kind, shape: rim.shape(), rim_height_mm: args.rim_height, wall: args.wall };
-        let found = found(rim, &container);
+        let found = describe_rim(rim, &container);
         let of_rim = METHODS.into_iter().flat_map(|method| {
             let measured = rim.sizes(view, method, &container, &inputs);
             measured.into_iter().map(move |(quantity, size)| (quantity, method, size))
@@ -48,17 +48,17 @@ pub fn run(args: &MeasureArgs, view: &View, bytes: &[u8]) -> Result<Outcome, Fai
             found: Some(found.clone()),
             ..describe(&object, &container, quantity, method, &size)
         }));
-        drawn.push(overlay::of_rim(rim, &container, &object, &sizes[first..]));
+        drawn.push(overlay::found_rim(rim, &container, &object, &sizes[first..]));
     }
     overlay::write(args, view, picture, &drawn)?;
     print(&if args.json { format!("{}\n", serde_json::to_string_pretty(&sizes)?) } else { text(&sizes, &inputs) })?;
     if rims.is_empty() {
-        tell("no rim was found\n");
+        print_message("no rim was found\n");
     }
     Ok(outcome(sizes.iter().any(|size| size.predicted_mm.is_none())))
 }
 
-fn found(rim: &Rim, container: &Container) -> Found {
+fn describe_rim(rim: &Rim, container: &Container) -> Found {
     Found {
         confidence: rim.confidence,
         center_px: [rim.center_px.x, rim.center_px.y],

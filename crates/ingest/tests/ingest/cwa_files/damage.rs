@@ -22,7 +22,7 @@ fn whole() -> Vec<u8> {
 }
 
 /// Where a block begins.
-fn at(block: usize) -> usize {
+fn offset_of_block(block: usize) -> usize {
     1024 + 512 * block
 }
 
@@ -41,20 +41,20 @@ fn bad_kinds(facts: &CwaFacts) -> Vec<(&'static str, u64, u64)> {
 #[test]
 fn flipped_bytes() {
     let mut file = whole();
-    file[at(3) + 77] ^= 1;
-    file[at(4)] ^= 1;
-    file[at(8) + 510] ^= 0x80;
+    file[offset_of_block(3) + 77] ^= 1;
+    file[offset_of_block(4)] ^= 1;
+    file[offset_of_block(8) + 510] ^= 0x80;
     let facts = all_but(&[3, 4, 8], &file);
-    assert_eq!(bad_kinds(&facts), [("bad_checksum", 2, at(3) as u64)]);
+    assert_eq!(bad_kinds(&facts), [("bad_checksum", 2, offset_of_block(3) as u64)]);
     assert_eq!((facts.blocks, facts.bytes_lost, facts.sequence_jumps), (9, 3 * 512, 0));
 }
 
 #[test]
 fn beginning_of_a_block_lost() {
     let mut file = whole();
-    file[at(4)..at(6)].fill(0);
+    file[offset_of_block(4)..offset_of_block(6)].fill(0);
     let facts = all_but(&[4, 5], &file);
-    assert_eq!(bad_kinds(&facts), [("not_a_data_block", 1, at(4) as u64)]);
+    assert_eq!(bad_kinds(&facts), [("not_a_data_block", 1, offset_of_block(4) as u64)]);
     assert_eq!((facts.bytes_lost, facts.sequence_jumps), (1024, 0));
 }
 
@@ -62,11 +62,11 @@ fn beginning_of_a_block_lost() {
 fn bytes_inserted() {
     for inserted in [1, 3, 100, 511, 512, 70_000] {
         let mut file = whole();
-        file.splice(at(5)..at(5), vec![b'A'; inserted]);
+        file.splice(offset_of_block(5)..offset_of_block(5), vec![b'A'; inserted]);
         let facts = all_but(&[], &file);
         assert_eq!(facts.bytes_lost, inserted as u64);
         file = whole();
-        file.splice(at(5) + 200..at(5) + 200, vec![7; inserted]);
+        file.splice(offset_of_block(5) + 200..offset_of_block(5) + 200, vec![7; inserted]);
         let facts = all_but(&[5], &file);
         assert_eq!((facts.bytes_lost, facts.blocks), (512 + inserted as u64, 11));
     }
@@ -76,7 +76,7 @@ fn bytes_inserted() {
 fn bytes_removed() {
     for removed in [1, 3, 200, 305] {
         let mut file = whole();
-        file.drain(at(5) + 200..at(5) + 200 + removed);
+        file.drain(offset_of_block(5) + 200..offset_of_block(5) + 200 + removed);
         let facts = all_but(&[5], &file);
         assert_eq!((facts.bytes_lost, bad_kinds(&facts).len()), (512 - removed as u64, 1));
     }
@@ -86,17 +86,17 @@ fn bytes_removed() {
 fn truncated() {
     let file = whole();
     for kept in [1, 3, 4, 511] {
-        let facts = all_but(&[11], &file[..at(11) + kept]);
-        assert_eq!(facts.truncated, Some(TruncatedBlock { offset: at(11) as u64, got: kept }));
+        let facts = all_but(&[11], &file[..offset_of_block(11) + kept]);
+        assert_eq!(facts.truncated, Some(TruncatedBlock { offset: offset_of_block(11) as u64, got: kept }));
         assert_eq!(facts.bytes_lost, kept as u64);
     }
-    assert_eq!(all_but(&[11], &file[..at(11)]).truncated, None);
+    assert_eq!(all_but(&[11], &file[..offset_of_block(11)]).truncated, None);
     // The last whole block is damaged as well.
     let mut file = file;
-    file[at(10) + 99] ^= 1;
-    let facts = all_but(&[10, 11], &file[..at(11) + 300]);
-    assert_eq!(facts.truncated, Some(TruncatedBlock { offset: at(11) as u64, got: 300 }));
-    assert_eq!(bad_kinds(&facts), [("bad_checksum", 1, at(10) as u64)]);
+    file[offset_of_block(10) + 99] ^= 1;
+    let facts = all_but(&[10, 11], &file[..offset_of_block(11) + 300]);
+    assert_eq!(facts.truncated, Some(TruncatedBlock { offset: offset_of_block(11) as u64, got: 300 }));
+    assert_eq!(bad_kinds(&facts), [("bad_checksum", 1, offset_of_block(10) as u64)]);
 }
 
 #[test]
@@ -112,9 +112,9 @@ fn headers_lost() {
 #[test]
 fn sequence_jumps() {
     let mut file = whole();
-    file.drain(at(4)..at(7));
+    file.drain(offset_of_block(4)..offset_of_block(7));
     let facts = all_but(&[4, 5, 6], &file);
-    let jump = SequenceJump { offset: at(4) as u64, expected: 4, got: 7 };
+    let jump = SequenceJump { offset: offset_of_block(4) as u64, expected: 4, got: 7 };
     assert_eq!((facts.sequence_jumps, facts.first_jumps), (1, vec![jump]));
     assert_eq!(facts.bytes_lost, 0);
 
@@ -127,12 +127,12 @@ fn sequence_jumps() {
 #[test]
 fn impossible_date() {
     let mut file = whole();
-    let mut block: [u8; 512] = *file[at(2)..].first_chunk().unwrap();
+    let mut block: [u8; 512] = *file[offset_of_block(2)..].first_chunk().unwrap();
     block[14..18].fill(0);
     super::writer::seal(&mut block);
-    file[at(2)..at(3)].copy_from_slice(&block);
+    file[offset_of_block(2)..offset_of_block(3)].copy_from_slice(&block);
     let facts = all_but(&[2], &file);
-    assert_eq!(bad_kinds(&facts), [("impossible_date", 1, at(2) as u64)]);
+    assert_eq!(bad_kinds(&facts), [("impossible_date", 1, offset_of_block(2) as u64)]);
     assert_eq!((facts.bytes_lost, facts.sequence_jumps), (512, 0));
 }
 
@@ -152,14 +152,17 @@ impl Read for Failing<'_> {
 #[test]
 fn unreadable() {
     let file = whole();
-    let mut blocks = CwaBlocks::new(Failing(&file[..at(6) + 10]));
+    let mut blocks = CwaBlocks::new(Failing(&file[..offset_of_block(6) + 10]));
     let mut count = 0;
     while blocks.next_block().is_some() {
         count += 1;
     }
     let (facts, _) = blocks.finish();
     let failure = facts.unreadable.unwrap();
-    assert_eq!((count, failure.offset, failure.message.as_str()), (6, at(6) as u64 + 10, "the card is gone"));
+    assert_eq!(
+        (count, failure.offset, failure.message.as_str()),
+        (6, offset_of_block(6) as u64 + 10, "the card is gone")
+    );
     assert_eq!(facts.truncated, None);
 }
 
@@ -180,8 +183,8 @@ proptest! {
 
     #[test]
     fn altered_files(
-        changes in prop::collection::vec((0..at(BLOCKS), any::<u8>()), 0..20),
-        cut in (0..at(BLOCKS), 0..2000_usize),
+        changes in prop::collection::vec((0..offset_of_block(BLOCKS), any::<u8>()), 0..20),
+        cut in (0..offset_of_block(BLOCKS), 0..2000_usize),
     ) {
         let mut file = whole();
         for (at, byte) in changes {

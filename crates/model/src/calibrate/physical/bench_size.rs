@@ -7,43 +7,48 @@ use crate::source::Source;
 use crate::uncertainty::{Estimate, InputSigma, estimate};
 use crate::view::View;
 
-/// A known size as it was seen.
+/// A known size with the marks and the view by which it is measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BenchSize {
-    /// What was measured.
+    /// Name of the object that was measured.
     pub object: String,
-    /// The setup or session: sizes of one share its errors.
+    /// The setup or session: the sizes of one setup share its errors.
     pub setup: String,
-    /// The view that the readings give.
+    /// The view by the uncorrected readings.
     pub view: View,
     /// An exact method whose assumptions hold.
     pub method: Method,
-    /// What is known of the container.
+    /// The facts that are known about the container.
     pub container: Container,
-    /// Its marks.
+    /// The marks of the object.
     pub marks: ObjectMarks,
-    /// Which size.
+    /// The quantity whose size is known.
     pub quantity: Quantity,
-    /// The truth.
+    /// The true size.
     pub true_mm: f64,
-    /// Uncertainties of the picture.
+    /// Standard uncertainties of the picture's inputs.
     pub inputs: InputSigma,
 }
 
-/// A size under a correction: log of predicted over true, and its derivatives by the four parameters.
+/// A size as it is measured under a correction.
 pub(super) struct Predicted {
+    /// The logarithm of predicted over true size.
     pub log_ratio: f64,
+    /// The derivatives of that logarithm by the four parameters, in the order of [`Correction::values`].
     pub by_parameter: [f64; 4],
+    /// The SD of that logarithm from the picture's noise and the marks.
     pub own_sd: f64,
 }
 
 impl BenchSize {
+    /// The corrected view, and the estimate of the size on it; `None` where the size cannot be measured.
     fn estimate(&self, correction: &Correction) -> Option<(View, Estimate)> {
         let view = correction.apply(&self.view)?;
         let sizes = estimate(&view, self.method, &self.container, &self.marks, &self.inputs);
         Some((view, sizes.into_iter().find(|(quantity, _)| *quantity == self.quantity)?.1.ok()?))
     }
 
+    /// The size under a correction; `None` where it cannot be measured.
     pub(super) fn predicted(&self, correction: &Correction) -> Option<Predicted> {
         let (view, estimate) = self.estimate(correction)?;
         let size_mm = estimate.measured.predicted_mm;
@@ -63,18 +68,20 @@ impl BenchSize {
         })
     }
 
-    /// Standard uncertainty that the size claims under a correction, with these uncertainties of what goes in: in per cent.
+    /// The standard uncertainty, in per cent, that the size claims under a correction with these uncertainties of the inputs;
+    /// `None` where it cannot be measured.
     #[must_use]
     pub fn claimed_pct(&self, correction: &Correction, inputs: &InputSigma) -> Option<f64> {
         let (_, estimate) = self.estimate(correction)?;
         Some(100.0 * estimate.sensitivity.sigma(inputs).total_mm / estimate.measured.predicted_mm)
     }
 
+    /// The error under a correction, in per cent of the truth; `None` where the size cannot be measured.
     pub(super) fn error_pct(&self, correction: &Correction) -> Option<f64> {
         let (_, estimate) = self.estimate(correction)?;
         Some(100.0 * (estimate.measured.predicted_mm / self.true_mm - 1.0))
     }
 }
 
-/// Truths and pixels are never better than this share of a size.
+/// The smallest SD of a size, as a share of it: neither true sizes nor pixels are known better.
 const LEAST_SD: f64 = 1e-3;

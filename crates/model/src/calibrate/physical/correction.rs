@@ -1,4 +1,4 @@
-//! What is wrong with readings, and readings put right.
+//! Corrections of the readings of a device.
 
 use nalgebra::{Rotation3, Vector3};
 
@@ -6,22 +6,22 @@ use crate::camera::Camera;
 use crate::pose::Pose;
 use crate::view::View;
 
-/// Corrections of readings. All zero: none.
+/// Corrections of readings. All zero is no correction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Correction {
-    /// Added to the angle of the camera on the device. It holds what the accelerometer's pitch is off by, too: a bench cannot
-    /// tell the two apart, and nothing needs to.
+    /// Angle that is added to that of the camera on the device. It includes the error of the accelerometer's pitch: a bench
+    /// cannot tell the two apart, and no size depends on which of them it is.
     pub mount_rad: f64,
-    /// true range = reading (1 + this) + [`Self::range_offset_mm`].
+    /// Scale of the range: true range = reading (1 + `range_scale`) + `range_offset_mm`.
     pub range_scale: f64,
-    /// See there.
+    /// Offset of the range, in the same equation.
     pub range_offset_mm: f64,
-    /// True focal length = the camera's (1 + this).
+    /// Scale of the focal length: true focal length = the camera's (1 + `focal_share`).
     pub focal_share: f64,
 }
 
 impl Correction {
-    /// The view as it is after the correction. None where no such pose or camera exists.
+    /// The view after the correction; `None` where no such pose or camera exists.
     #[must_use]
     pub fn apply(&self, view: &View) -> Option<View> {
         let (pose, camera) = (view.pose(), view.camera());
@@ -34,12 +34,13 @@ impl Correction {
         Some(View::new(camera, Pose::new(pitch_rad, roll_rad, range_mm).ok()?))
     }
 
+    /// The correction with these values, in the order of [`Self::values`].
     pub(super) fn from_values(values: &[f64; 4]) -> Self {
         let [mount_rad, range_scale, range_offset_mm, focal_share] = *values;
         Self { mount_rad, range_scale, range_offset_mm, focal_share }
     }
 
-    /// In the order of [`LEARNED`].
+    /// The four values, in the order of [`LEARNED`](crate::LEARNED).
     #[must_use]
     pub fn values(&self) -> [f64; 4] {
         [self.mount_rad, self.range_scale, self.range_offset_mm, self.focal_share]

@@ -1,4 +1,4 @@
-//! What mount, range sensor and focal length are off by, from sizes that are known.
+//! Corrections of mount, range sensor and focal length from known sizes.
 
 mod bench_size;
 mod correction;
@@ -16,46 +16,46 @@ pub use bench_size::BenchSize;
 pub use correction::Correction;
 use solve::{Solution, solve};
 
-/// Why sizes do not give corrections.
+/// The reason why sizes do not give corrections.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CorrectionError {
-    /// Too few sizes or setups.
+    /// There are too few sizes or setups.
     #[error("{sizes} sizes of {setups} setups; corrections need 6 sizes of 3 setups or more")]
     TooFew {
-        /// How many sizes.
+        /// Number of sizes.
         sizes: usize,
-        /// How many setups.
+        /// Number of setups.
         setups: usize,
     },
-    /// A size cannot be measured under some correction.
+    /// A size cannot be measured any more under some correction.
     #[error("a size cannot be measured any more when the readings are corrected: the marks or readings are off")]
     Unmeasurable,
 }
 
-/// Corrections with what is known of them.
+/// Corrections with their covariance, and with their errors on sizes that were left out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Physical {
     /// The corrections; those that the data do not determine are zero.
     pub correction: Correction,
-    /// Which of [`LEARNED`] the data determine better than they are known beforehand.
+    /// For each of [`LEARNED`], whether the data determine it better than it is known beforehand.
     pub determined: [bool; 4],
-    /// SD of each that the data alone give, fitted with those that are determined; none where they say nothing.
+    /// The SD of each by the data alone, fitted with those that are determined; `None` where the data give none.
     pub sd: [Option<f64>; 4],
-    /// Covariance, in the order of [`LEARNED`]; of what is not determined, what was known beforehand.
+    /// The covariance, in the order of [`LEARNED`]. Parameters that are not determined keep the prior variance.
     pub covariance: Matrix4<f64>,
-    /// Errors of objects left out of the fit.
+    /// The errors of objects that were left out of the fit.
     pub without_object: HeldOut,
-    /// Errors of setups left out.
+    /// The errors of setups that were left out of the fit.
     pub without_setup: HeldOut,
 }
 
-/// Fits corrections by robust least squares on the logarithms of sizes, judges them by sizes left out.
+/// The corrections by robust least squares on the logarithms of sizes, and their errors on sizes that were left out.
 ///
-/// A parameter whose SD from the data is no smaller than `prior` has it is not determined: the worst is left at zero, and
-/// the others fitted again. SDs allow for errors that the sizes of a setup share (a sandwich over setups).
+/// A parameter whose SD from the data is no smaller than that in `prior` is not determined. The worst such parameter is left at
+/// zero, and the others are fitted again. SDs allow for errors that the sizes of a setup share (a sandwich over setups).
 ///
 /// # Errors
-/// [`CorrectionError`] where there is too little.
+/// [`CorrectionError`] when there are too few sizes or setups, or when a size cannot be measured.
 pub fn calibrate(sizes: &[BenchSize], prior: &InputSigma) -> Result<Physical, CorrectionError> {
     let all: Vec<&BenchSize> = sizes.iter().collect();
     let fitted = fit(&all, prior)?;
@@ -90,14 +90,17 @@ pub fn calibrate(sizes: &[BenchSize], prior: &InputSigma) -> Result<Physical, Co
     })
 }
 
+/// A fit, with the choice of the parameters that the data determine.
 struct Fitted {
     solution: Solution,
-    /// Numbers of the parameters that were fitted.
+    /// The numbers of the parameters that were fitted.
     free: Vec<usize>,
+    /// The SDs, by the data, of the parameters that were left out.
     refused_sd: [Option<f64>; 4],
 }
 
-/// What is known of a parameter of [`LEARNED`] beforehand, in its own unit. The mount's holds the accelerometer's pitch.
+/// The SD of a parameter of [`LEARNED`] before the calibration, in its own unit. That of the mount includes the pitch of the
+/// accelerometer.
 #[must_use]
 pub fn prior_sd(prior: &InputSigma, source: Source) -> f64 {
     if source == Source::Mount { prior.mount_rad.hypot(prior.pitch_rad) } else { prior.sigma_of(source) }
@@ -116,7 +119,7 @@ fn fit(sizes: &[&BenchSize], prior: &InputSigma) -> Result<Fitted, CorrectionErr
         free.remove(row);
         solution = solve(sizes, &free, prior)?;
     }
-    // What was left out early may be determined now that others are out.
+    // A parameter that was left out early may be determined now that others are left out.
     for i in (0..LEARNED.len()).filter(|&i| prior_sd(prior, LEARNED[i]) > 0.0) {
         if free.contains(&i) {
             continue;
@@ -132,7 +135,8 @@ fn fit(sizes: &[&BenchSize], prior: &InputSigma) -> Result<Fitted, CorrectionErr
     Ok(Fitted { solution, free, refused_sd })
 }
 
-/// The parameter that the data tell least of against what is known beforehand; none where they tell more of all.
+/// The place in `free` of the parameter whose SD is the largest against that in `prior`; `None` when all SDs are smaller than
+/// in `prior`.
 fn worst(solution: &Solution, free: &[usize], prior: &InputSigma) -> Option<usize> {
     let ratio = |row: usize| {
         let sd = solution.covariance[(row, row)].sqrt() / prior_sd(prior, LEARNED[free[row]]);

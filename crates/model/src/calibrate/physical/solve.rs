@@ -1,4 +1,4 @@
-//! The least squares behind a calibration.
+//! The least-squares fit behind a calibration.
 
 use std::collections::BTreeMap;
 
@@ -9,25 +9,28 @@ use nalgebra::{DMatrix, DVector, Dyn};
 use super::bench_size::BenchSize;
 use super::correction::Correction;
 use super::{CorrectionError, prior_sd};
-use crate::stats::median;
+use crate::stats::{ROBUST_SD, median};
 use crate::uncertainty::{InputSigma, LEARNED};
 
-/// A fit.
+/// The solution of a fit.
 pub(super) struct Solution {
     pub correction: Correction,
-    /// Of the free parameters; not finite where the data do not determine them.
+    /// The covariance of the free parameters; not finite where the data do not determine them.
     pub covariance: DMatrix<f64>,
 }
 
 /// Huber's constant, in robust SDs.
 const HUBER: f64 = 1.7;
-const ROBUST_SD: f64 = 1.4826;
+/// Number of fits, each with weights from the residuals of the one before.
 const REWEIGHTINGS: usize = 10;
-/// Where sizes leave a direction open, a fence of so many prior SDs keeps the search among poses that exist. What is
-/// determined better than beforehand it moves by less than a hundredth of its SD. It does not count for SDs.
+/// Where the sizes do not determine a direction, a fence of this many prior SDs keeps the search among poses that exist. It
+/// moves a parameter that is better determined than beforehand by less than a hundredth of its SD, and does not count for SDs.
 const FENCE: f64 = 10.0;
 
-/// Robust fit of the free parameters.
+/// The robust fit of the free parameters, given by their numbers; the others stay at zero.
+///
+/// # Errors
+/// [`CorrectionError::Unmeasurable`] when a size cannot be measured under some correction.
 pub(super) fn solve(sizes: &[&BenchSize], free: &[usize], prior: &InputSigma) -> Result<Solution, CorrectionError> {
     let start = Correction::default();
     let own: Option<Vec<f64>> = sizes.iter().map(|size| Some(size.predicted(&start)?.own_sd.recip())).collect();
@@ -56,16 +59,18 @@ pub(super) fn solve(sizes: &[&BenchSize], free: &[usize], prior: &InputSigma) ->
     Ok(Solution { correction: problem.correction(), covariance: problem.covariance() })
 }
 
+/// The least-squares problem whose residuals are the weighted logarithms of predicted over true sizes, and the fence.
 struct LogSizes<'a> {
     sizes: &'a [&'a BenchSize],
     free: &'a [usize],
-    /// Weight of each parameter's own departure from zero.
+    /// The weight of each parameter's own departure from zero.
     fence: DVector<f64>,
     weights: DVector<f64>,
     parameters: DVector<f64>,
 }
 
 impl LogSizes<'_> {
+    /// The correction with the current parameters.
     fn correction(&self) -> Correction {
         let mut values = [0.0; 4];
         for (row, &i) in self.free.iter().enumerate() {
@@ -74,14 +79,16 @@ impl LogSizes<'_> {
         Correction::from_values(&values)
     }
 
+    /// The logarithms of predicted over true sizes, without weights; `None` where a size cannot be measured.
     fn unweighted(&self) -> Option<Vec<f64>> {
         let correction = self.correction();
         self.sizes.iter().map(|size| Some(size.predicted(&correction)?.log_ratio)).collect()
     }
 
-    /// Covariance: from the stated errors of marks and pictures, or their scatter where that is larger; with SDs raised to those
-    /// that allow for errors that the sizes of a setup share, (J'J)^-1 (sum of s s') (J'J)^-1 with the scores s of a setup and the
-    /// usual factor for few setups. Not finite where J'J is singular.
+    /// The covariance of the free parameters; not finite where J'J is singular. It follows from the stated errors of marks and
+    /// pictures, or from the scatter of the sizes where that is larger. An SD is raised where errors that the sizes of a setup
+    /// share make it larger: they give the covariance (J'J)^-1 (sum of s s') (J'J)^-1, with the scores s of a setup, times the
+    /// usual factor for few setups.
     fn covariance(&self) -> DMatrix<f64> {
         let n = self.free.len();
         let unknown = || DMatrix::from_element(n, n, f64::INFINITY);
@@ -100,7 +107,7 @@ impl LogSizes<'_> {
         }
         #[expect(clippy::cast_precision_loss, reason = "a count of setups is far below 2^53")]
         let (setups, free) = (scores.len() as f64, n as f64);
-        // As many setups as parameters leave nothing to tell their scatter by.
+        // With no more setups than parameters, nothing shows the scatter of the setups.
         if setups <= free {
             return unknown();
         }
@@ -109,13 +116,13 @@ impl LogSizes<'_> {
         let shared = &inverse * meat * &inverse * (setups / (setups - free));
         let scatter = ROBUST_SD * median(residuals.iter().map(|r| r.abs()).collect());
         let stated = &inverse * scatter.max(1.0).powi(2);
-        // A sandwich over few setups may be far too small by chance: no SD is smaller than what the marks alone make it.
+        // A sandwich over few setups may be far too small by chance, so no SD is smaller than the marks alone make it.
         let larger = |i: usize| (shared[(i, i)] / stated[(i, i)]).sqrt().max(1.0) * UNITS[self.free[i]];
         DMatrix::from_fn(n, n, |i, j| stated[(i, j)] * larger(i) * larger(j))
     }
 }
 
-/// Parameters are fitted in these units, so that a step of 1 means about as much for each.
+/// The units in which parameters are fitted, so that a step of 1 has about the same effect for each.
 const UNITS: [f64; 4] = [0.02, 0.03, 5.0, 0.01];
 
 impl LeastSquaresProblem<f64, Dyn, Dyn> for LogSizes<'_> {

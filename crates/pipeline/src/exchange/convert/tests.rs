@@ -25,8 +25,8 @@ fn skeleton(points: &[(&str, f64, Sight)]) -> Drawn {
 
 /// Label, LabelMe's word and the x of the points of every mark.
 fn marks(converted: &Converted) -> Vec<(&str, &str, Vec<f64>)> {
-    let x = |made: &Made| made.points_px.iter().map(|point| point[0]).collect();
-    converted.made.iter().map(|made| (made.label.as_str(), made.shape_type, x(made))).collect()
+    let x = |made: &ConvertedMark| made.points_px.iter().map(|point| point[0]).collect();
+    converted.marks.iter().map(|made| (made.label.as_str(), made.shape_type, x(made))).collect()
 }
 
 use Sight::{Absent, Hidden, Seen};
@@ -42,8 +42,8 @@ fn forms_keep_their_points() {
         ("bowl/diameter", Form::Loose, 2, "line"),
     ] {
         let converted = convert(label, drawn(form, &points[..count]), false).unwrap();
-        let made = Made { label: label.to_owned(), shape_type: expected, points_px: points[..count].to_vec() };
-        assert_eq!(converted, Converted { made: vec![made], notes: Vec::new() });
+        let mark = ConvertedMark { label: label.to_owned(), shape_type: expected, points_px: points[..count].to_vec() };
+        assert_eq!(converted, Converted { marks: vec![mark], notes: Vec::new() });
     }
 }
 
@@ -83,9 +83,9 @@ fn an_ellipse_gives_no_more_points_than_it_holds() {
     let ellipse =
         |x: f64| Drawn::Ellipse(Ellipse { centre_px: [x, 20.0], half_axes_px: [12.0, 6.0], rotation_rad: 0.3 });
     let converted = convert("bowl/rim", ellipse(30.0), false).unwrap();
-    assert_eq!((converted.made[0].shape_type, converted.made[0].points_px.len()), ("points", 8));
+    assert_eq!((converted.marks[0].shape_type, converted.marks[0].points_px.len()), ("points", 8));
     let over_the_border = convert("bowl/rim", ellipse(4.0), false).unwrap();
-    assert_eq!(over_the_border.made[0].points_px.len(), 5);
+    assert_eq!(over_the_border.marks[0].points_px.len(), 5);
     assert!(convert("bowl/rim", ellipse(-5.0), false).unwrap_err().contains("mark what is seen of it"));
     assert!(convert("bowl/diameter", ellipse(30.0), false).unwrap_err().contains("got an ellipse"));
 }

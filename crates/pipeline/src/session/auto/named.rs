@@ -1,28 +1,39 @@
-//! One kind, one height and one name for each container.
+//! Gives each container one kind, one height and one name.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Seen;
 use super::link::containers;
 use super::track::Sighting;
 use crate::labelme::AutoRim;
-use crate::rims::{Found, as_judged};
 use crate::study::FOUND;
+use rims::{Found, as_judged};
 
-/// The rims by image, named: one container, one name, what it is by all of its images. Numbers go from 1 in the order in which
-/// containers are first seen; `taken` are left out, and so are containers narrower than `least_diameter_mm`.
-pub(super) fn named(seen: Vec<Seen>, taken: &BTreeSet<u32>, least_diameter_mm: f64) -> BTreeMap<String, Vec<AutoRim>> {
+/// A rim with the sighting by which it is linked to others.
+pub(super) struct Seen {
+    pub image: String,
+    pub rim: AutoRim,
+    pub sighting: Sighting,
+}
+
+/// The rims by image, under the name of their container and with its kind and height by all of its images. Numbers go from 1
+/// in the order in which containers are first seen. Those in `taken` are not given, and containers narrower than
+/// `least_diameter_mm` are left out.
+pub(super) fn name_containers(
+    seen: Vec<Seen>,
+    taken: &BTreeSet<u32>,
+    least_diameter_mm: f64,
+) -> BTreeMap<String, Vec<AutoRim>> {
     let sightings: Vec<Sighting> = seen.iter().map(|seen| seen.sighting).collect();
     let mut free = (1..).filter(|number| !taken.contains(number));
     let mut decided: Vec<Option<(String, Found)>> = vec![None; seen.len()];
     for track in containers(&sightings) {
-        let Some(looks) = track.looks() else { continue };
-        let kind = looks.kind();
-        let is_wide = track.narrowest_mm(looks.height(kind).mm) >= least_diameter_mm;
+        let Some(appearance) = track.appearance() else { continue };
+        let kind = appearance.kind();
+        let is_wide = track.narrowest_mm(appearance.height(kind).mm) >= least_diameter_mm;
         if !is_wide {
             continue;
         }
-        let (plate_height, height) = as_judged(looks.plate, looks.bowl, looks.plate_log_odds);
+        let (plate_height, height) = as_judged(appearance.plate, appearance.bowl, appearance.plate_log_odds);
         let name = format!("{FOUND}{}", free.next().unwrap_or(u32::MAX));
         for member in track.members {
             let own = seen[member].rim.found;
@@ -43,8 +54,8 @@ mod tests {
     use model::{Kind, Shape, UtcNs};
 
     use super::*;
-    use crate::rims::{HeightSource, RimHeight};
-    use crate::session::auto::looks::Looks;
+    use crate::session::auto::appearance::Appearance;
+    use rims::{HeightSource, RimHeight};
 
     const LEAST_MM: f64 = 90.0;
 
@@ -63,7 +74,7 @@ mod tests {
             relative_sigma: 0.03,
             camera_mm: 400.0,
             at_mm: [0.0, 300.0],
-            looks: Looks { plate, bowl, plate_log_odds },
+            appearance: Appearance { plate, bowl, plate_log_odds },
         };
         let rim = AutoRim { object: String::new(), points_px: Vec::new(), found };
         Seen { image: format!("{image}.jpg"), rim, sighting }
@@ -72,7 +83,7 @@ mod tests {
     #[test]
     fn all_images_of_a_container_have_its_kind_and_height() {
         let images = vec![seen(0, 200.0, -9.0, 50.0), seen(1, 201.0, 1.0, 70.0), seen(2, 199.0, -9.0, 60.0)];
-        let by_image = named(images, &BTreeSet::new(), LEAST_MM);
+        let by_image = name_containers(images, &BTreeSet::new(), LEAST_MM);
         let rims: Vec<&AutoRim> = by_image.values().flatten().collect();
         assert_eq!(rims.len(), 3);
         for rim in rims {
@@ -85,7 +96,7 @@ mod tests {
     #[test]
     fn a_height_is_less_sure_where_the_kind_is() {
         let sigma_mm = |plate_log_odds: f64| {
-            let by_image = named(vec![seen(0, 200.0, plate_log_odds, 60.0)], &BTreeSet::new(), LEAST_MM);
+            let by_image = name_containers(vec![seen(0, 200.0, plate_log_odds, 60.0)], &BTreeSet::new(), LEAST_MM);
             by_image["0.jpg"][0].found.height.sigma_mm
         };
         assert!((sigma_mm(-9.0) - 10.0).abs() < 0.2, "{}", sigma_mm(-9.0));
@@ -95,7 +106,7 @@ mod tests {
     #[test]
     fn numbers_are_of_what_is_kept_and_free() {
         let images = vec![seen(0, 80.0, -6.0, 60.0), seen(0, 150.0, -6.0, 60.0), seen(1, 250.0, 6.0, 60.0)];
-        let by_image = named(images, &BTreeSet::from([1, 3]), LEAST_MM);
+        let by_image = name_containers(images, &BTreeSet::from([1, 3]), LEAST_MM);
         let names = |image: &str| by_image[image].iter().map(|rim| rim.object.as_str()).collect::<Vec<_>>();
         assert_eq!((names("0.jpg"), names("1.jpg")), (vec!["auto-2"], vec!["auto-4"]), "a cup has no name");
     }
@@ -104,6 +115,6 @@ mod tests {
     #[test]
     fn a_container_is_narrow_in_all_of_its_images_or_in_none() {
         let cup = vec![seen(0, 109.0, -6.0, 60.0), seen(1, 103.0, -6.0, 60.0), seen(2, 102.0, -6.0, 60.0)];
-        assert!(named(cup, &BTreeSet::new(), LEAST_MM).is_empty());
+        assert!(name_containers(cup, &BTreeSet::new(), LEAST_MM).is_empty());
     }
 }

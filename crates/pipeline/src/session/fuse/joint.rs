@@ -1,4 +1,5 @@
-//! Bowls seen in several images at different pitches: height and wall slope together, and the mouth on that plane.
+//! Method joint: bowls that are seen in several images at different pitches. Height and wall slope are solved together, and
+//! the mouth is measured on that plane.
 
 use std::collections::BTreeMap;
 
@@ -8,10 +9,11 @@ use model::{
 };
 
 use super::{Row, fused_row, with_sigma};
-use crate::session::measurement::{Marked, Measurement};
+use crate::session::marked::Marked;
+use crate::session::measurement::Measurement;
 use crate::session::row::error_pct;
 
-/// The rows of method joint: for every object and rater with height lines on two or more still images.
+/// The rows of method joint, for every object and rater with height lines on two or more still images.
 ///
 /// The images need different pitches, so those outside the target window count as well. Where they do not determine a
 /// height, there is no row: the other methods stand.
@@ -42,7 +44,7 @@ fn of_bowl(marked: &[&Marked<'_>], measurements: &[Measurement]) -> Option<Vec<R
     Some(rows)
 }
 
-/// A row of the same image, object and rater, for what rows have in common.
+/// A row of the same image, object and rater, from which the fused row takes what all rows have in common.
 fn template<'a>(marked: &Marked<'_>, measurements: &'a [Measurement]) -> Option<&'a ResultRow> {
     let same = |m: &&Measurement| {
         m.picture == marked.number
@@ -66,14 +68,14 @@ fn height_row(templates: &[&ResultRow], height: &JointHeight) -> Option<Row> {
     Some(finished(row, height, &fused))
 }
 
-/// The mouth on the plane that the images give together.
+/// The row of the mouth on the plane that the images give together.
 fn diameter_row(pictures: &[&Marked<'_>], templates: &[&ResultRow], height: &JointHeight) -> Option<Row> {
     let (mut shares, mut camera_heights_mm) = (Vec::new(), Vec::new());
     for (number, m) in pictures.iter().enumerate() {
         let view = m.view(Method::Joint)?;
         let known = Container { rim_height_mm: Some(height.height_mm), ..m.object.container };
-        let found = estimate(&view, Method::Ray, &known, m.marks, &m.inputs);
-        let diameter = found.into_iter().find(|(quantity, _)| *quantity == Quantity::Diameter);
+        let sizes = estimate(&view, Method::Ray, &known, m.marks, &m.inputs);
+        let diameter = sizes.into_iter().find(|(quantity, _)| *quantity == Quantity::Diameter);
         let Some((_, Ok(diameter))) = diameter else { continue };
         shares.push(Share {
             value_mm: diameter.measured.predicted_mm,

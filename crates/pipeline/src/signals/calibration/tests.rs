@@ -41,7 +41,7 @@ fn all_over(n: u32) -> Vec<Vector3<f64>> {
         .collect()
 }
 
-/// What a sensor with these errors reads: the inverse of [`AxisCalibration::of`].
+/// What a sensor with these errors reads: the inverse of [`AxisCalibration::apply`].
 fn read_by(sensor: &AxisCalibration, forces: Vec<Vector3<f64>>) -> Vec<Vector3<f64>> {
     forces.into_iter().map(|force| force.component_div(&sensor.scale) - sensor.offset_g).collect()
 }
@@ -52,13 +52,13 @@ fn bad_sensor() -> AxisCalibration {
 
 #[test]
 fn known_offsets_and_scales_are_found_within_1_mg() {
-    let found = windows(&read_by(&bad_sensor(), all_over(200)), 0.005).calibration();
-    assert_eq!((found.verdict, found.windows), (CalibrationVerdict::Accepted, 200));
-    let (before, after) = (found.error_before_mg.unwrap(), found.error_after_mg.unwrap());
+    let calibration = windows(&read_by(&bad_sensor(), all_over(200)), 0.005).calibration();
+    assert_eq!((calibration.verdict, calibration.windows), (CalibrationVerdict::Accepted, 200));
+    let (before, after) = (calibration.error_before_mg.unwrap(), calibration.error_after_mg.unwrap());
     assert!(before > 30.0 && after < 1.0, "{before} {after}");
-    let fit = found.accepted().unwrap();
-    for (found, true_value) in [(fit.offset_g, bad_sensor().offset_g), (fit.scale, bad_sensor().scale)] {
-        assert!((found - true_value).amax() < 0.001, "{found} {true_value}");
+    let fit = calibration.accepted().unwrap();
+    for (calibration, true_value) in [(fit.offset_g, bad_sensor().offset_g), (fit.scale, bad_sensor().scale)] {
+        assert!((calibration - true_value).amax() < 0.001, "{calibration} {true_value}");
     }
 }
 
@@ -67,10 +67,10 @@ fn a_night_on_a_shelf_does_not_outweigh_the_day() {
     let mut forces = all_over(100);
     forces.extend(std::iter::repeat_n(Vector3::new(0.0, 0.6, 0.8), 2000));
     let windows = windows(&read_by(&bad_sensor(), forces), 0.005);
-    let found = windows.calibration();
-    let fit = found.accepted().unwrap();
-    assert!((fit.offset_g - bad_sensor().offset_g).amax() < 0.001 && found.windows == 2100, "{found}");
-    assert!((fit.scale - bad_sensor().scale).amax() < 0.001, "{found}");
+    let calibration = windows.calibration();
+    let fit = calibration.accepted().unwrap();
+    assert!((fit.offset_g - bad_sensor().offset_g).amax() < 0.001 && calibration.windows == 2100, "{calibration}");
+    assert!((fit.scale - bad_sensor().scale).amax() < 0.001, "{calibration}");
 }
 
 #[test]
@@ -86,22 +86,22 @@ fn few_outliers_hardly_matter() {
 #[test]
 fn glasses_that_only_look_ahead_and_down_cover_too_few_directions() {
     let ahead: Vec<_> = all_over(2000).into_iter().filter(|f| f.y < -0.5).collect();
-    let found = windows(&read_by(&bad_sensor(), ahead), 0.005).calibration();
-    assert!(found.windows > 400 && found.directions > 12);
+    let calibration = windows(&read_by(&bad_sensor(), ahead), 0.005).calibration();
+    assert!(calibration.windows > 400 && calibration.directions > 12);
     assert_eq!(
-        (found.verdict, found.accepted(), found.error_after_mg),
+        (calibration.verdict, calibration.accepted(), calibration.error_after_mg),
         (CalibrationVerdict::TooFewDirections, None, None)
     );
-    assert!(found.error_before_mg.unwrap() > 10.0);
-    assert!(found.to_string().contains("y -"), "{found}");
+    assert!(calibration.error_before_mg.unwrap() > 10.0);
+    assert!(calibration.to_string().contains("y -"), "{calibration}");
 }
 
 #[test]
 fn six_sides_of_a_box_leave_nothing_to_be_wrong_about() {
     let sides = [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().flat_map(|axis| [axis, -axis]);
     let forces: Vec<_> = sides.cycle().take(60).collect();
-    let found = windows(&read_by(&bad_sensor(), forces), 0.001).calibration();
-    assert_eq!((found.verdict, found.windows), (CalibrationVerdict::TooFewDirections, 60));
+    let calibration = windows(&read_by(&bad_sensor(), forces), 0.001).calibration();
+    assert_eq!((calibration.verdict, calibration.windows), (CalibrationVerdict::TooFewDirections, 60));
 }
 
 #[test]
@@ -109,9 +109,12 @@ fn noise_that_no_calibration_mends_is_refused() {
     // Lengths off by up to 8 % at random: no offset or scale explains that.
     let mut noise = Noise(3);
     let forces: Vec<_> = all_over(200).into_iter().map(|force| force * (1.0 + 0.08 * noise.next())).collect();
-    let found = windows(&forces, 0.002).calibration();
-    assert!(matches!(found.verdict, CalibrationVerdict::StillLarge | CalibrationVerdict::NotBetter), "{found}");
-    assert!(found.accepted().is_none() && found.error_after_mg.unwrap() > 10.0);
+    let calibration = windows(&forces, 0.002).calibration();
+    assert!(
+        matches!(calibration.verdict, CalibrationVerdict::StillLarge | CalibrationVerdict::NotBetter),
+        "{calibration}"
+    );
+    assert!(calibration.accepted().is_none() && calibration.error_after_mg.unwrap() > 10.0);
 }
 
 #[test]
@@ -126,9 +129,9 @@ fn what_makes_it_worse_is_refused() {
 
 #[test]
 fn a_perfect_sensor_without_noise_is_left_alone() {
-    let found = windows(&all_over(200), 0.0).calibration();
-    assert!(found.error_before_mg.unwrap() < 0.05);
-    let fit = found.fit.unwrap();
+    let calibration = windows(&all_over(200), 0.0).calibration();
+    assert!(calibration.error_before_mg.unwrap() < 0.05);
+    let fit = calibration.fit.unwrap();
     assert!(fit.offset_g.amax() < 1e-4 && (fit.scale - AxisCalibration::NONE.scale).amax() < 1e-4);
 }
 
@@ -174,9 +177,9 @@ fn a_real_log_that_is_too_short_is_refused() {
         let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
         windows.push(UtcNs(0).plus_seconds(i as f64 / 100.0), &Vector3::new(cells[7], cells[8], cells[9]));
     }
-    let found = windows.calibration();
-    println!("{} {found}", found.verdict.code());
-    assert_eq!((found.verdict, found.fit), (CalibrationVerdict::TooFewWindows, None));
+    let calibration = windows.calibration();
+    println!("{} {calibration}", calibration.verdict.code());
+    assert_eq!((calibration.verdict, calibration.fit), (CalibrationVerdict::TooFewWindows, None));
 }
 
 /// `cargo test --release -p aim-batch-pipeline -- --ignored seven_days --nocapture`

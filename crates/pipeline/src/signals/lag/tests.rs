@@ -60,17 +60,17 @@ fn saturating(a: f64, b: f64) -> f64 {
 fn a_known_lag_is_found_within_0_3_s() {
     let head = Head::new(2000.0, 3.0);
     for lag_s in [-4.2, 0.0, 1.7, 7.35] {
-        let found = estimated(&head, 150, lag_s, saturating);
-        assert_eq!(found.verdict, LagVerdict::Told, "{found:?}");
-        assert!((found.lag_s.unwrap() - lag_s).abs() < 0.3, "{lag_s}: {found:?}");
+        let estimate = estimated(&head, 150, lag_s, saturating);
+        assert_eq!(estimate.verdict, LagVerdict::Known, "{estimate:?}");
+        assert!((estimate.lag_s.unwrap() - lag_s).abs() < 0.3, "{lag_s}: {estimate:?}");
     }
 }
 
 #[test]
 fn without_motion_it_cannot_be_told() {
     let still = Head { turns: vec![(0.0, 0.9)], turn_s: 0.8 };
-    let found = estimated(&still, 150, 1.0, |a, b| 0.3 + (a * 1e3).sin() + b);
-    assert_eq!(found.verdict, LagVerdict::NoAgreement, "{found:?}");
+    let estimate = estimated(&still, 150, 1.0, |a, b| 0.3 + (a * 1e3).sin() + b);
+    assert_eq!(estimate.verdict, LagVerdict::NoAgreement, "{estimate:?}");
 }
 
 #[test]
@@ -80,21 +80,21 @@ fn pictures_that_change_by_themselves_tell_nothing() {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         f64::from((state >> 33) as u32)
     });
-    let found = estimated(&Head::new(2000.0, 3.0), 150, 1.0, |_, _| unrelated.borrow_mut()());
-    assert_eq!(found.verdict, LagVerdict::NoAgreement, "{found:?}");
+    let estimate = estimated(&Head::new(2000.0, 3.0), 150, 1.0, |_, _| unrelated.borrow_mut()());
+    assert_eq!(estimate.verdict, LagVerdict::NoAgreement, "{estimate:?}");
 }
 
 #[test]
 fn a_head_that_turns_slowly_gives_no_sharp_lag() {
     let head = Head { turn_s: 40.0, ..Head::new(4000.0, 60.0) };
-    let found = estimated(&head, 300, 1.0, |a, b| (a - b).abs());
-    assert!(found.half_width_s.unwrap() > 1.0 && found.verdict == LagVerdict::NotSharp, "{found:?}");
+    let estimate = estimated(&head, 300, 1.0, |a, b| (a - b).abs());
+    assert!(estimate.half_width_s.unwrap() > 1.0 && estimate.verdict == LagVerdict::NotSharp, "{estimate:?}");
 }
 
 #[test]
 fn a_lag_beyond_the_search_is_not_told() {
-    let found = estimated(&Head::new(2000.0, 3.0), 150, 14.0, saturating);
-    assert_ne!(found.verdict, LagVerdict::Told, "{found:?}");
+    let estimate = estimated(&Head::new(2000.0, 3.0), 150, 14.0, saturating);
+    assert_ne!(estimate.verdict, LagVerdict::Known, "{estimate:?}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ fn of_readings(readings: &[f64]) -> Range {
 fn of_records(records: &[f64], step_s: f64) -> Range {
     let times = (0..).map(|i| UtcNs(0).plus_seconds(f64::from(i) * step_s));
     let samples: Vec<_> = times.zip(records.iter().copied()).collect();
-    of(&samples, &ReadingSettings::default())
+    range_from(&samples, &ReadingSettings::default())
 }
 
 /// 128 records in one second of a sensor that measures every `period_s`.
@@ -25,31 +25,31 @@ fn noise(i: u32) -> f64 {
 
 #[test]
 fn codes_and_nonsense_are_refused() {
-    let found = of_readings(&[8190.0, 580.0, 12.0, 581.0, 8191.0, 579.0, 2500.0, -1.0, f64::NAN]);
-    assert_eq!(found.median_mm, Some(580.0));
-    assert_eq!((found.valid_samples, found.distinct), (3, 3));
+    let range = of_readings(&[8190.0, 580.0, 12.0, 581.0, 8191.0, 579.0, 2500.0, -1.0, f64::NAN]);
+    assert_eq!(range.median_mm, Some(580.0));
+    assert_eq!((range.valid_samples, range.distinct), (3, 3));
 }
 
 #[test]
 fn a_hand_in_a_third_of_the_window_does_not_move_it() {
-    let found = of_readings(&[580.0, 581.0, 300.0, 579.0, 310.0, 580.0, 582.0]);
-    assert!((found.median_mm.unwrap() - 580.0).abs() < 1.0);
-    assert!(found.spread_mm.unwrap() < 2.0);
+    let range = of_readings(&[580.0, 581.0, 300.0, 579.0, 310.0, 580.0, 582.0]);
+    assert!((range.median_mm.unwrap() - 580.0).abs() < 1.0);
+    assert!(range.spread_mm.unwrap() < 2.0);
 }
 
 #[test]
 fn a_code_is_refused_even_where_the_limits_would_allow_it() {
     let samples: Vec<_> = (0..10).map(|i| (UtcNs(i * 50_000_000), 8190.0)).collect();
     let spec = ReadingSettings { range_max_mm: 9000.0, ..ReadingSettings::default() };
-    assert_eq!(of(&samples, &spec).median_mm, None);
+    assert_eq!(range_from(&samples, &spec).median_mm, None);
 }
 
 #[test]
 fn a_stray_echo_among_codes_is_no_range() {
     let mut records = vec![8190.0; 120];
     records.extend([123.0; 8]);
-    let found = of_records(&records, 1.0 / 128.0);
-    assert_eq!((found.median_mm, found.valid_samples, found.distinct), (None, 8, 3));
+    let range = of_records(&records, 1.0 / 128.0);
+    assert_eq!((range.median_mm, range.valid_samples, range.distinct), (None, 8, 3));
 }
 
 #[test]
@@ -59,26 +59,26 @@ fn too_few_readings_give_none() {
     // Nine records, but of two readings.
     let held = [580.0, 580.0, 580.0, 581.0, 581.0];
     assert_eq!(of_records(&held, 1.0 / 128.0).median_mm, None);
-    assert_eq!(of(&[], &ReadingSettings::default()).median_mm, None);
+    assert_eq!(range_from(&[], &ReadingSettings::default()).median_mm, None);
 }
 
 #[test]
 fn held_values_count_once() {
-    let found = logged(0.02, |i| 580.0 + noise(i));
-    assert_eq!((found.valid_samples, found.distinct), (128, 50));
-    assert!(!found.held && !found.step);
+    let range = logged(0.02, |i| 580.0 + noise(i));
+    assert_eq!((range.valid_samples, range.distinct), (128, 50));
+    assert!(!range.held && !range.step);
     // A slower sensor than the one declared shows it: 30.3 readings in the window.
-    let found = logged(0.033, |i| 580.0 + noise(i));
-    assert!((30..=32).contains(&found.distinct), "{}", found.distinct);
+    let range = logged(0.033, |i| 580.0 + noise(i));
+    assert!((30..=32).contains(&range.distinct), "{}", range.distinct);
 }
 
 #[test]
 fn equal_readings_of_a_quiet_sensor_are_not_one() {
     // Most readings are 580, as of a fixed target: readings, not runs, make the median and the count.
     let quiet = |i: u32| if i.is_multiple_of(5) { 581.0 } else { 580.0 };
-    let found = logged(0.02, quiet);
-    assert!((45..=50).contains(&found.distinct), "{}", found.distinct);
-    assert!(found.median_mm == Some(580.0) && !found.held);
+    let range = logged(0.02, quiet);
+    assert!((45..=50).contains(&range.distinct), "{}", range.distinct);
+    assert!(range.median_mm == Some(580.0) && !range.held);
 }
 
 #[test]
@@ -104,9 +104,9 @@ fn a_stuck_sensor_is_told() {
 #[test]
 fn a_step_is_told_and_the_clear_majority_used() {
     let hand = |share: u32| logged(0.02, move |i| if i < share { 300.0 } else { 580.0 } + noise(i));
-    let found = hand(15);
-    assert!(found.step && (found.median_mm.unwrap() - 580.0).abs() < 2.0, "{found:?}");
-    assert!(found.spread_mm.unwrap() < 8.0);
+    let range = hand(15);
+    assert!(range.step && (range.median_mm.unwrap() - 580.0).abs() < 2.0, "{range:?}");
+    assert!(range.spread_mm.unwrap() < 8.0);
     assert_eq!(hand(25).median_mm, None, "half and half: neither is the table");
     assert!(hand(25).step);
     let came_and_went = logged(0.02, |i| if (20..30).contains(&i) { 420.0 } else { 580.0 } + noise(i));

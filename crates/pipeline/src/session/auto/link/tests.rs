@@ -1,18 +1,18 @@
 use model::UtcNs;
 
 use super::*;
-use crate::rims::{HeightSource, RimHeight};
-use crate::session::auto::looks::Looks;
+use crate::session::auto::appearance::Appearance;
+use rims::{HeightSource, RimHeight};
 
 const CAMERA_MM: f64 = 420.0;
 
-fn looks(plate_log_odds: f64, diameter_mm: f64) -> Looks {
+fn appearance(plate_log_odds: f64, diameter_mm: f64) -> Appearance {
     let height = |share: f64| RimHeight {
         mm: share * diameter_mm,
         sigma_mm: 0.3 * share * diameter_mm,
         source: HeightSource::Common,
     };
-    Looks { plate: height(0.1), bowl: height(0.4), plate_log_odds }
+    Appearance { plate: height(0.1), bowl: height(0.4), plate_log_odds }
 }
 
 /// A rim that may be anything, 3 % uncertain. `across_mm`: on the plane Z = 0.
@@ -25,7 +25,7 @@ fn rim(at_s: i64, across_mm: f64, at_mm: [f64; 2]) -> Sighting {
         relative_sigma: 0.03,
         camera_mm: CAMERA_MM,
         at_mm,
-        looks: looks(0.0, across_mm),
+        appearance: appearance(0.0, across_mm),
     }
 }
 
@@ -58,7 +58,7 @@ fn one_container_keeps_its_name_however_the_head_turns() {
 fn a_container_that_looks_like_a_plate_once_and_like_a_bowl_then_is_one() {
     let seen: Vec<Sighting> = (0..6_i32)
         .map(|i| Sighting {
-            looks: looks(if i % 2 == 0 { 3.0 } else { -3.0 }, 200.0),
+            appearance: appearance(if i % 2 == 0 { 3.0 } else { -3.0 }, 200.0),
             ..rim(10 * i64::from(i), 200.0, [0.0, 400.0])
         })
         .collect();
@@ -70,11 +70,12 @@ fn a_container_that_looks_like_a_plate_once_and_like_a_bowl_then_is_one() {
 fn sizes_are_compared_at_the_height_of_the_rim() {
     let bowl = |at_s, camera_mm: f64| Sighting {
         camera_mm,
-        looks: looks(-8.0, 150.0),
+        appearance: appearance(-8.0, 150.0),
         ..rim(at_s, 150.0 / (1.0 - 60.0 / camera_mm), [0.0, 300.0])
     };
     assert_eq!(numbers(&[bowl(0, 250.0), bowl(1_000, 500.0)]), [1, 1]);
-    let flat = [bowl(0, 250.0), bowl(1_000, 500.0)].map(|sighting| Sighting { looks: looks(8.0, 150.0), ..sighting });
+    let flat = [bowl(0, 250.0), bowl(1_000, 500.0)]
+        .map(|sighting| Sighting { appearance: appearance(8.0, 150.0), ..sighting });
     assert_eq!(numbers(&flat), [1, 2]);
 }
 
