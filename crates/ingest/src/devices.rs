@@ -8,7 +8,7 @@ use crate::config::{self, ConfigError};
 
 /// The built-in files of one kind.
 pub(crate) struct Shelf {
-    /// What they are, for messages.
+    /// The noun for them in messages.
     pub kind: &'static str,
     /// Name and text of each.
     pub built_in: &'static [(&'static str, &'static str)],

@@ -18,9 +18,9 @@ pub enum IngestError {
     NoCard {
         /// The session.
         session: String,
-        /// Where the card should be.
+        /// The folder where the card should be.
         card_dir: PathBuf,
-        /// What the system says.
+        /// The message of the operating system.
         source: std::io::Error,
     },
     /// No file of the card fits the profile.
@@ -60,7 +60,7 @@ pub enum IngestError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What went wrong.
+        /// The cause.
         source: WriteError,
     },
     /// The metadata cannot be written as text.
@@ -97,7 +97,7 @@ impl IngestError {
         }
     }
 
-    /// What to do about it.
+    /// The remedy: what a person can do about it.
     #[must_use]
     pub fn remedy(&self) -> &'static str {
         match self {

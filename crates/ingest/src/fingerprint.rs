@@ -9,12 +9,12 @@ use sha2::{Digest, Sha256};
 /// File systems keep times in steps of up to 2 s (FAT): a file that changed so recently may change again unseen.
 const TIME_STEP_NS: i128 = 2_000_000_000;
 
-/// What the system says of a file.
+/// The facts that the file system gives of a file.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct FileStamp {
     bytes: u64,
     modified_ns: i128,
-    /// When the inode changed, which no program can set; zero where there is no such time.
+    /// The time at which the inode changed, which no program can set; zero where there is no such time.
     changed_ns: i128,
     inode: u64,
 }

@@ -1,4 +1,4 @@
-//! What an MCAP file was made from, as one hash: whether ingest must run again.
+//! The key of an MCAP file: one hash of all that it was made from, which says whether ingest must run again.
 
 use std::path::Path;
 
@@ -53,7 +53,7 @@ pub(crate) fn inputs_key_with(source: &SessionSource, progress: &dyn IngestProgr
     key_of(source, &inputs, &listing_problems(source, &card)?)
 }
 
-/// What the listing of a card gives to tell: links, odd names, and files that nobody reads. It is in the key, since it is in
+/// The problems that the listing of a card shows: links, odd names, and files that nobody reads. They are in the key, since they are in
 /// the recording.
 pub(crate) fn listing_problems(source: &SessionSource, card: &Card) -> Result<Vec<Problem>, IngestError> {
     let images = source.profile.images.as_ref().map_or(&[][..], |images| &images.files);
@@ -78,7 +78,7 @@ impl CardFingerprinter {
         Ok(Self { patterns, profile: toml_text("profile", profile)? })
     }
 
-    /// What the system says of the files of a card, under the same settings as [`inputs_key`]: where it is equal, the key is.
+    /// The fingerprint of a card: what the file system says of its files, under the same settings as [`inputs_key`]: where it is equal, the key is.
     /// The study's own files on the card do not count, nor do those of operating systems. Its bytes are those that are read.
     ///
     /// # Errors

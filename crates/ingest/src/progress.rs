@@ -1,4 +1,4 @@
-//! What the caller of an ingest hears of it, and may ask of it. Drawing is the caller's.
+//! The progress that an ingest reports to its caller, and the caller's requests. Drawing is the caller's.
 
 use std::sync::{Condvar, Mutex, PoisonError};
 

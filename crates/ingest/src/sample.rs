@@ -7,14 +7,14 @@ use model::UtcNs;
 pub enum Sample {
     /// Specific force.
     Acceleration {
-        /// When it was sampled.
+        /// The time at which it was sampled.
         time: UtcNs,
         /// In g, device frame: x right, y down, z forward. At rest and upright, y is -1.
         g: [f64; 3],
     },
     /// Reading of the range sensor.
     Range {
-        /// When it was sampled.
+        /// The time at which it was sampled.
         time: UtcNs,
         /// In mm, as the sensor gave it: codes (8190, 8191: no target) included.
         mm: f64,
@@ -22,7 +22,7 @@ pub enum Sample {
 }
 
 impl Sample {
-    /// When the sample was taken.
+    /// The time at which the sample was taken.
     #[must_use]
     pub fn time(&self) -> UtcNs {
         match self {

@@ -17,7 +17,7 @@ pub struct SessionSource {
     pub session: String,
     /// The card as it was copied.
     pub card_dir: PathBuf,
-    /// What the device writes.
+    /// The profile of the device.
     pub profile: Profile,
     /// The camera of this session.
     pub camera_spec: CameraSpec,

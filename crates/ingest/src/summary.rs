@@ -1,4 +1,4 @@
-//! What came out of the ingest of one session.
+//! The outcome of the ingest of one session.
 
 use model::{FrameReason, Problem, UtcNs};
 use serde::{Deserialize, Serialize};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct ImageEntry {
     /// Path relative to the card, with `/`.
     pub file: String,
-    /// When it was taken.
+    /// The time at which it was taken.
     pub time: UtcNs,
     /// Size of the file.
     pub bytes: u64,
@@ -34,7 +34,7 @@ pub struct DroppedImage {
     pub reason: FrameReason,
     /// The facts behind the reason: expected and got.
     pub detail: String,
-    /// When it was taken, where that is known.
+    /// The time at which it was taken, where that is known.
     pub time: Option<UtcNs>,
 }
 
@@ -51,7 +51,7 @@ pub struct Counts {
     pub dropped_images: u64,
 }
 
-/// What came out of the ingest of one session.
+/// The outcome of the ingest of one session.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IngestSummary {
     /// Name of the session.
@@ -68,6 +68,6 @@ pub struct IngestSummary {
     pub counts: Counts,
     /// Images that could not be used, sorted by file.
     pub dropped_images: Vec<DroppedImage>,
-    /// What was wrong with the card.
+    /// The problems of the card.
     pub problems: Vec<Problem>,
 }

@@ -1,4 +1,4 @@
-//! What became of images and session, in words.
+//! The fate of images and session, in words.
 
 use foxglove::messages::Log;
 use foxglove::messages::log::Level;
@@ -27,9 +27,9 @@ pub struct LogNote {
     pub time: UtcNs,
     /// How much it matters.
     pub level: LogLevel,
-    /// What it is about: `image`, `session`, `fused`.
+    /// Its subject: `image`, `session` or `fused`.
     pub about: &'static str,
-    /// What there is to say.
+    /// The text.
     pub text: String,
     /// The file that it is about, relative to the study or the card.
     pub file: String,

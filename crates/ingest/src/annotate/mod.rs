@@ -21,31 +21,31 @@ use crate::read::{RawMessage, ReadError, SessionReader};
 use crate::summary::ImageEntry;
 use numbers::{FrameNumbers, SizeNumbers};
 
-/// What is written, and from what.
+/// The contents of an annotated recording.
 #[derive(Debug, Clone, Copy)]
 pub struct Annotating<'a> {
     /// The session's recording.
     pub recording: &'a Path,
     /// The file to be made.
     pub out: &'a Path,
-    /// What the notes are made from, as one text; [`annotated_key`] gives it back.
+    /// The key of everything that the notes are made from; [`annotated_key`] reads it back.
     pub key: &'a str,
     /// Camera of the pictures, as sizes are measured.
     pub camera: &'a Camera,
     /// Who marked, sorted: each has a colour.
     pub raters: &'a [String],
-    /// What is known of the session besides its images.
+    /// The notes on the session besides its images.
     pub log: &'a [LogNote],
 }
 
-/// What is known of one image.
+/// The notes on one image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImageNotes<'a> {
     /// Its row of the ledger.
     pub frame: &'a FrameRow,
     /// The view that sizes were measured by; none without a pose.
     pub view: Option<View>,
-    /// What was marked in it.
+    /// The marks in it.
     pub marks: Vec<MarkNote>,
     /// Its sizes, one of each quantity.
     pub sizes: Vec<&'a ResultRow>,
@@ -60,7 +60,7 @@ pub struct MarkNote {
     pub object: String,
     /// Who marked.
     pub rater: String,
-    /// What of the object it shows.
+    /// The feature of the object that it shows.
     pub feature: Feature,
     /// Whether the last point joins the first.
     pub closed: bool,
@@ -84,7 +84,7 @@ pub enum AnnotateError {
         /// Why.
         source: WriteError,
     },
-    /// Somebody wished so.
+    /// The caller asked to stop.
     #[error("stopped")]
     Stopped,
 }

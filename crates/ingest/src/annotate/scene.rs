@@ -19,7 +19,7 @@ const TABLE_FRAME: &str = "table";
 const TABLE_M: f64 = 0.5;
 const LINES: i32 = 5;
 
-/// Where the camera is in the world frame.
+/// The place of the camera in the world frame.
 pub(super) fn transform(view: &View, time: UtcNs) -> FrameTransform {
     let world_from_camera = Rotation3::from_matrix_unchecked(view.pose().world_from_camera());
     let [x, y, z, w] = UnitQuaternion::from_rotation_matrix(&world_from_camera).coords.into();
@@ -55,7 +55,7 @@ pub(super) fn update(view: &View, notes: &ImageNotes<'_>, raters: &[String], tim
     SceneUpdate { deletions: vec![all], entities: std::iter::once(table).chain(marked).collect() }
 }
 
-/// None where it lies on no level plane, or the view does not show it there.
+/// It is none where the mark lies on no level plane, or the view does not show it there.
 fn on_plane(view: &View, mark: &MarkNote) -> Option<Vec<Point3>> {
     let z_mm = mark.plane_z_mm?;
     let point = |[x, y]: &[f64; 2]| {

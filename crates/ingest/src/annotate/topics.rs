@@ -12,7 +12,7 @@ pub(super) const DRAWN: &str = "/camera/drawn";
 pub(super) const TRANSFORM: &str = "/tf";
 /// The table, and what was marked on it.
 pub(super) const SCENE: &str = "/scene";
-/// What became of every image, and of the session.
+/// The fate of every image, and of the session.
 pub(super) const LOG: &str = "/log";
 
 /// One for each thing that can be plotted as one line: `/sizes/RATER/OBJECT/QUANTITY`.

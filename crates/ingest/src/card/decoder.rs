@@ -35,7 +35,7 @@ enum FileLayout {
     Cwa(CwaLayout),
 }
 
-/// What all streams of a profile say.
+/// The settings that all streams of a profile share.
 struct Common<'p> {
     rate_hz: f64,
     gap_s: Option<f64>,

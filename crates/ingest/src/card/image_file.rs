@@ -25,7 +25,7 @@ pub(crate) struct TakenImage {
     pub remarks: Remarks,
 }
 
-/// What is odd about an image that can be used.
+/// The oddities of an image that can be used.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Remarks {
     /// Bytes behind the picture's end marker that belong to no picture.
@@ -36,7 +36,7 @@ pub(crate) struct Remarks {
     pub has_one_time: bool,
 }
 
-/// What stands in place of a hash for an image that is too large: nobody waits for 10 GB that cannot be a picture.
+/// The text in place of a hash for an image that is too large: nobody waits for 10 GB that cannot be a picture.
 pub(crate) fn too_large(file: &CardFile) -> Option<String> {
     (file.bytes > LARGEST_IMAGE_BYTES).then(|| format!("too_large:{}", file.bytes))
 }

@@ -27,7 +27,7 @@ impl Patterns {
         Self::compile(patterns, false)
     }
 
-    /// The same patterns, for names in upper or lower case.
+    /// These patterns, for names in upper or lower case.
     pub(super) fn any_case(patterns: &[String]) -> Result<Self, PatternError> {
         Self::compile(patterns, true)
     }

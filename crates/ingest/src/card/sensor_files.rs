@@ -11,7 +11,7 @@ use super::decoder::{Decoder, Layout};
 use crate::parse::{RawBlock, Stamps, image_time};
 use crate::profile::{Anchor, ClockSpec};
 
-/// What says when boot-relative clocks were zero.
+/// The source of the time at which boot-relative clocks were zero.
 #[derive(Debug, Clone)]
 pub(crate) struct Anchoring<'a> {
     pub spec: Option<&'a ClockSpec>,

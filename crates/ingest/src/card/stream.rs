@@ -86,7 +86,7 @@ impl<'a> Stream<'a> {
         }
     }
 
-    /// What the sensor's clock did.
+    /// The account of the sensor's clock.
     pub fn finish(self) -> StreamFacts {
         let mut facts = self.line.finish();
         facts.times_declared = self.layout.is_counted();

@@ -1,4 +1,4 @@
-//! What lies on a card and is not read, because no pattern of the profile fits it.
+//! Files of a card that are not read, because no pattern of the profile fits them.
 
 use std::fs::File;
 use std::io::Read;
@@ -64,7 +64,7 @@ fn not_a_file(name: &str, patterns: &Patterns, place: &Place) -> Problem {
     }
 }
 
-/// What probably keeps the files from being read.
+/// The likely reason why the files are not read.
 fn remedy(unread: &[&CardFile], declared: &Declared<'_>) -> Result<String, PatternError> {
     let all = Patterns::any_case(declared.all)?;
     let images = Patterns::any_case(declared.images)?;

@@ -19,11 +19,11 @@ pub struct CardFile {
     /// Path relative to the card, with `/`; unique. Bytes that are not UTF-8, and control characters, are written `\xff`,
     /// a backslash in a name as `\\`.
     pub name: String,
-    /// Where it is.
+    /// The place where it is.
     pub path: PathBuf,
     /// Its size.
     pub bytes: u64,
-    /// What the system said of it.
+    /// The message of the operating system.
     pub stamp: FileStamp,
 }
 

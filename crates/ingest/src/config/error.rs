@@ -1,8 +1,8 @@
-//! What can be wrong with a configuration file.
+//! The errors of a configuration file.
 
 use std::path::PathBuf;
 
-/// What is wrong with a configuration file. Lines and columns count from 1.
+/// An error of a configuration file. Lines and columns count from 1.
 #[derive(Debug, thiserror::Error)]
 pub enum ConfigError {
     /// The file cannot be opened or read.
@@ -10,7 +10,7 @@ pub enum ConfigError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The message of the operating system.
         source: std::io::Error,
     },
     /// Far too large for a configuration.
@@ -66,9 +66,9 @@ pub enum ConfigError {
         path: PathBuf,
         /// The key, with its table.
         key: String,
-        /// What is wrong.
+        /// The fault.
         fact: String,
-        /// What to write instead.
+        /// The text to write instead.
         remedy: String,
     },
     /// A name that is neither built in nor a file in the devices folder.

@@ -1,4 +1,4 @@
-//! What people should know of a session's clocks.
+//! Problems and notes about the clocks of a session.
 
 use model::{Problem, ProblemCode, UtcNs};
 

@@ -1,4 +1,4 @@
-//! What is said of images that cannot be used.
+//! Problems of images that cannot be used.
 
 use model::{FrameReason, Problem};
 

@@ -1,4 +1,4 @@
-//! What was odd about the images that were used: one note per oddity and session.
+//! Oddities of the images that were used: one note per oddity and session.
 
 use model::{Problem, ProblemCode};
 

@@ -19,7 +19,7 @@ use crate::source::SessionSource;
 use crate::summary::IngestSummary;
 use run::Run;
 
-/// What [`ingest_if_changed`] did.
+/// The outcome of [`ingest_if_changed`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ingested {
     /// The MCAP file was made from the same input by the same ingest; nothing was written.

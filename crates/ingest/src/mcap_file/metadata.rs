@@ -26,7 +26,7 @@ pub(crate) const ANNOTATED: &str = "aim_batch.annotated";
 /// Metadata records by name.
 pub(crate) type Records = BTreeMap<String, BTreeMap<String, String>>;
 
-/// What one session's metadata says.
+/// The facts in the metadata of one session.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Facts {
     pub session: String,
@@ -49,7 +49,7 @@ pub(crate) struct Facts {
 pub struct MetadataError {
     /// Name of the record.
     pub record: String,
-    /// What is wrong with it.
+    /// The fault.
     pub fact: String,
 }
 

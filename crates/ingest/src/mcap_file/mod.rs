@@ -1,4 +1,4 @@
-//! What the MCAP file of a session holds: topics, messages, metadata records. Writer and reader share it.
+//! The layout of a session's MCAP file: topics, messages, metadata records. Writer and reader share it.
 
 mod calibration;
 pub(crate) mod messages;

@@ -56,7 +56,7 @@ impl From<McapError> for WriteError {
     }
 }
 
-/// What becomes of images.
+/// Whether images are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Keep {
     /// They are written: a session's own file.

@@ -16,12 +16,12 @@ const BATCH_ROWS: usize = 1024;
 /// Columns that a message lists.
 const SHOWN_COLUMNS: usize = 30;
 
-/// What to read from a CSV file.
+/// The columns to read from a CSV file, and its form.
 #[derive(Debug, Clone)]
 pub struct CsvLayout {
-    /// What the file looks like.
+    /// The form of the file.
     pub format: CsvFormat,
-    /// What gives a row its time.
+    /// The source of a row's time.
     pub time: RowTime,
     /// Columns for [`Converter::channels`], in that order.
     pub values: Vec<String>,
@@ -44,7 +44,7 @@ pub struct CsvSamples<R: Read> {
     end: Option<Fault>,
 }
 
-/// Where in a row the columns are.
+/// The places of the columns in a row.
 #[derive(Clone)]
 struct Columns {
     time: Option<usize>,
@@ -91,7 +91,7 @@ impl<R: Read> CsvSamples<R> {
         (read > 0).then(|| self.block(batch, first, read))
     }
 
-    /// What was wrong with the file, and the reader.
+    /// Returns the faults of the file, and the reader.
     pub fn finish(self) -> (Vec<Fault>, R) {
         let (rows, bytes) = (self.bad_rows, self.bad_bytes);
         let bad_rows = self.first_bad_row.map(|(first_line, first)| Fault::BadRows { rows, bytes, first_line, first });

@@ -19,10 +19,10 @@ pub(super) struct CsvRows<R> {
     reader: R,
     delimiter: u8,
     bytes: Vec<u8>,
-    /// Where in `bytes` the next line begins, and where what has been read ends.
+    /// The place in `bytes` where the next line begins, and where what has been read ends.
     next: usize,
     end: usize,
-    /// Where in the file `bytes` begins.
+    /// The place in the file where `bytes` begins.
     offset: u64,
     at_end: bool,
     lines: u64,

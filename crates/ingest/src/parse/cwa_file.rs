@@ -11,7 +11,7 @@ use super::{Converter, Fault};
 /// Names under which the gyroscope's channels can be carried along.
 const GYROSCOPE: [&str; 3] = ["gyro_x", "gyro_y", "gyro_z"];
 
-/// What to take from a CWA file.
+/// The samples to take from a CWA file.
 #[derive(Debug, Clone)]
 pub struct CwaLayout {
     /// To the device frame.
@@ -38,7 +38,7 @@ impl<R: Read> CwaSamples<R> {
         Some(self.raw(&block))
     }
 
-    /// What was wrong with the file, and the reader.
+    /// Returns the faults of the file, and the reader.
     pub fn finish(self) -> (Vec<Fault>, R) {
         let (facts, reader) = self.blocks.finish();
         (faults(&facts), reader)

@@ -36,7 +36,7 @@ pub(super) fn ns(text: &[u8], power_of_ten_ns: u32) -> Option<i64> {
 }
 
 /// Nanoseconds of a number of units, whole and fraction apart, so that nothing is lost beyond the number's own digits.
-/// None for what is negative, not finite or beyond i64.
+/// It is none for a number that is negative, not finite or beyond i64.
 #[expect(clippy::cast_possible_truncation, reason = "the range is checked, and floor() and round() give whole numbers")]
 #[expect(clippy::cast_precision_loss, reason = "a unit is at most 1e9 ns")]
 pub(super) fn ns_of(units: f64, unit_ns: i64) -> Option<i64> {

@@ -1,8 +1,8 @@
-//! What can be wrong with a sensor file, with what to do about it.
+//! The faults of a sensor file, each with its remedy.
 
 use model::ProblemCode;
 
-/// What is wrong with a sensor file. The rest of the file is used.
+/// A fault of a sensor file. The rest of the file is used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Fault {
     /// The file ends inside a packet.
@@ -10,7 +10,7 @@ pub enum Fault {
         "the file ends inside the packet at byte {offset}: expected {expected} bytes, got {got}, of which {samples} samples are used"
     )]
     TruncatedPacket {
-        /// Where it begins.
+        /// The place where it begins.
         offset: u64,
         /// Bytes of a whole packet.
         expected: usize,
@@ -24,7 +24,7 @@ pub enum Fault {
     Zeros {
         /// Bytes in them.
         bytes: u64,
-        /// Where the first one begins.
+        /// The place where the first one begins.
         first_offset: u64,
     },
     /// Packets do not follow each other: bytes were lost, or others stand between.
@@ -34,9 +34,9 @@ pub enum Fault {
     LostAlignment {
         /// Bytes that are left out.
         bytes: u64,
-        /// How many places.
+        /// The number of places.
         places: u64,
-        /// Where the first one begins.
+        /// The place where the first one begins.
         first_offset: u64,
     },
     /// Packets whose number is not the one after the last.
@@ -44,9 +44,9 @@ pub enum Fault {
         "{jumps} jumps in the packets' numbers, the first at byte {first_offset}: expected {expected}, got {got}; packets are missing"
     )]
     SequenceJumps {
-        /// How many.
+        /// The number of them.
         jumps: u64,
-        /// Where the first one is.
+        /// The place where the first one is.
         first_offset: u64,
         /// The number that follows.
         expected: u32,
@@ -59,13 +59,13 @@ pub enum Fault {
     /// A CWA file's damage.
     #[error("{blocks} blocks cannot be used ({bytes} bytes), the first at byte {first_offset}: {first}")]
     BadBlocks {
-        /// How many.
+        /// The number of them.
         blocks: u64,
         /// Bytes in them, and between blocks.
         bytes: u64,
-        /// Where the first one begins.
+        /// The place where the first one begins.
         first_offset: u64,
-        /// What is wrong with the first one.
+        /// The fault of the first one.
         first: String,
     },
     /// Packets whose stamp is no time.
@@ -73,13 +73,13 @@ pub enum Fault {
         "{packets} packets ({bytes} bytes) have a stamp that is no time, the first at byte {first_offset}: {first}"
     )]
     BadStamp {
-        /// How many.
+        /// The number of them.
         packets: u64,
         /// Bytes in them.
         bytes: u64,
-        /// Where the first one begins.
+        /// The place where the first one begins.
         first_offset: u64,
-        /// What the first stamp is.
+        /// The first stamp.
         first: String,
     },
     /// A column that the profile names is not in the first line.
@@ -93,13 +93,13 @@ pub enum Fault {
     /// Rows that cannot be read.
     #[error("{rows} rows cannot be read and are left out, the first in line {first_line}: {first}")]
     BadRows {
-        /// How many.
+        /// The number of them.
         rows: u64,
         /// Bytes in them.
         bytes: u64,
         /// Line of the first one, from 1.
         first_line: u64,
-        /// What is wrong with the first one.
+        /// The fault of the first one.
         first: String,
     },
     /// A line too long for a table of numbers, such as a block of zeros.
@@ -113,15 +113,15 @@ pub enum Fault {
     /// The system cannot read on.
     #[error("cannot be read from byte {offset} on: {message}")]
     Unreadable {
-        /// Where reading stopped.
+        /// The place where reading stopped.
         offset: u64,
-        /// What the system says.
+        /// The message of the operating system.
         message: String,
     },
     /// Samples whose stamps the clock cannot turn into times.
     #[error("{samples} samples have no time: {first}")]
     NoTime {
-        /// How many.
+        /// The number of them.
         samples: u64,
         /// Why the first one has none.
         first: String,
@@ -166,7 +166,7 @@ impl Fault {
         }
     }
 
-    /// What to do about it.
+    /// The remedy: what a person can do about it.
     #[must_use]
     pub fn remedy(&self) -> &'static str {
         match self {

@@ -1,10 +1,10 @@
-//! Where a picture ends in its file, and whether it is whole until there. The pixels are not decoded.
+//! The place where a picture ends in its file, and whether it is whole until there. The pixels are not decoded.
 
 use super::image_header::Encoding;
 use super::jpeg_extent::jpeg_extent;
 use super::png_extent::png_extent;
 
-/// How far a whole picture reaches.
+/// The extent of a whole picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ImageExtent {
     /// Bytes from the file's first to the last of the picture's end marker; never more than the file has.
@@ -21,7 +21,7 @@ pub enum ImageDamage {
     NoEnd {
         /// Bytes of the file.
         bytes: usize,
-        /// What a whole picture ends in.
+        /// The marker that ends a whole picture.
         marker: &'static str,
     },
     /// The file ends inside a part that says how long it is.
@@ -29,7 +29,7 @@ pub enum ImageDamage {
     Cut {
         /// The part.
         part: String,
-        /// Where it begins.
+        /// The place where it begins.
         at: usize,
         /// Its length as it says.
         expected: usize,
@@ -39,19 +39,19 @@ pub enum ImageDamage {
     /// Something stands where the format does not allow it.
     #[error("{found} at byte {at}, expected {expected}")]
     Strange {
-        /// What stands there.
+        /// The bytes that stand there.
         found: String,
-        /// Where.
+        /// The place.
         at: usize,
-        /// What a picture has there.
+        /// The bytes that a picture has there.
         expected: &'static str,
     },
     /// A block of zeros in the picture's data, as damaged cards give.
     #[error("{bytes} zero bytes in the picture's data, from byte {at} on")]
     Zeros {
-        /// Where the zeros begin.
+        /// The place where the zeros begin.
         at: usize,
-        /// How many there are.
+        /// The number of them.
         bytes: usize,
     },
     /// A PNG chunk whose bytes are not those that were written.
@@ -59,13 +59,13 @@ pub enum ImageDamage {
     Checksum {
         /// The chunk's name.
         chunk: String,
-        /// Where it begins.
+        /// The place where it begins.
         at: usize,
     },
     /// The end marker comes before any picture data.
     #[error("the end marker comes at byte {at}, before any picture data")]
     NoPixels {
-        /// Where the end marker is.
+        /// The place where the end marker is.
         at: usize,
     },
 }

@@ -1,4 +1,4 @@
-//! What an image file says of itself before its pixels.
+//! The header of an image file: encoding, size, EXIF.
 
 use std::io::Cursor;
 
@@ -46,7 +46,7 @@ pub enum HeaderError {
     Damaged(&'static str, String),
 }
 
-/// What a file's first bytes say it is; 8 of them are enough.
+/// The encoding by the first bytes of a file; 8 of them are enough.
 #[must_use]
 pub fn encoding_of(start: &[u8]) -> Option<Encoding> {
     if start.starts_with(&[0xff, 0xd8, 0xff]) {

@@ -1,4 +1,4 @@
-//! When an image was taken: from its name or from EXIF, as the profile declares.
+//! The time at which an image was taken: from its name or from EXIF, as the profile declares.
 
 use exif::{Field, In, Tag, Value};
 use jiff::civil::DateTime;
@@ -17,7 +17,7 @@ pub enum TimeError {
         name: String,
         /// The profile's pattern.
         pattern: String,
-        /// Where it does not fit.
+        /// The place where it does not fit.
         why: String,
     },
     /// No EXIF, or no usable time in it.
@@ -56,7 +56,7 @@ pub enum TimeError {
 /// Whether a pattern consists of strptime directives that give a date and a time.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The fault.
 pub fn check_pattern(pattern: &str) -> Result<(), String> {
     let probe = Timestamp::UNIX_EPOCH.to_zoned(TimeZone::UTC);
     let name = strtime::format(pattern, &probe).map_err(|error| error.to_string())?;

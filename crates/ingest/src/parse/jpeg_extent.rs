@@ -74,7 +74,7 @@ struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    /// Where the next marker is, and its code. Any number of 0xff may stand before the code.
+    /// The place where the next marker is, and its code. Any number of 0xff may stand before the code.
     fn marker(&mut self) -> Result<(usize, u8), ImageDamage> {
         let at = self.at;
         match self.bytes.get(at) {
@@ -88,7 +88,7 @@ impl<'a> Walk<'a> {
         Ok((at, code))
     }
 
-    /// What stands in the segment whose marker is at `marker_at`, and on behind it.
+    /// Reads the segment whose marker is at `marker_at`, and goes on behind it.
     fn segment(&mut self, marker_at: usize) -> Result<&'a [u8], ImageDamage> {
         let rest = &self.bytes[self.at..];
         let [high, low, ..] = rest else { return Err(self.no_end()) };

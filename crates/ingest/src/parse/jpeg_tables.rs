@@ -1,4 +1,4 @@
-//! What zeros mean in a JPEG file's own Huffman code.
+//! The meaning of zeros in a JPEG file's own Huffman code.
 
 /// Of each Huffman table, the symbol whose code is all zero bits: the first one (T.81, Annex C).
 ///

@@ -1,5 +1,5 @@
 //! Parsers of untrusted bytes, apart from the card's I/O: byte slices and [`std::io::Read`] in, samples and facts out.
-//! None of them panics on any input (`fuzz/`).
+//! No parser panics, whatever the input (`fuzz/`).
 
 mod convert;
 mod csv_file;

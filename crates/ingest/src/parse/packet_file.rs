@@ -23,9 +23,9 @@ pub struct PacketSamples<R> {
     reader: R,
     parser: PacketParser,
     bytes: Vec<u8>,
-    /// Where in `bytes` the next packet begins.
+    /// The place in `bytes` where the next packet begins.
     next: usize,
-    /// Where in the file `bytes` begins.
+    /// The place in the file where `bytes` begins.
     offset: u64,
     at_end: bool,
     /// Stamp of the last packet, and how much later it is than the one before.
@@ -33,7 +33,7 @@ pub struct PacketSamples<R> {
     step_ns: Option<i64>,
     /// Until where in the file the search for the next packet has been in vain, so that no byte is searched twice.
     barren_until: Cell<u64>,
-    /// Where in the file the first packet begins that bad ones lead to; 0 where none has been found.
+    /// The place in the file where the first packet begins that bad ones lead to; 0 where none has been found.
     begins_at: Cell<u64>,
     damage: Damage,
     end: Option<Fault>,
@@ -102,7 +102,7 @@ impl<R: Read> PacketSamples<R> {
         }
     }
 
-    /// What was wrong with the file, and the reader.
+    /// Returns the faults of the file, and the reader.
     pub fn finish(self) -> (Vec<Fault>, R) {
         let damage = self.damage;
         let bytes = damage.bad_packets * self.parser.packet_bytes() as u64;
@@ -136,7 +136,7 @@ impl<R: Read> PacketSamples<R> {
         (!self.parser.is_absolute() || (EARLIEST_NS..LATEST_NS).contains(&ns)).then_some(ns)
     }
 
-    /// Where the packet after the next one begins.
+    /// The place where the packet after the next one begins.
     fn following(&self) -> usize {
         self.next + self.parser.packet_bytes()
     }
@@ -183,7 +183,7 @@ impl<R: Read> PacketSamples<R> {
         next.is_some_and(|next| steps_ns.contains(&self.parser.later_ns(next, ns))) || following == self.bytes.len()
     }
 
-    /// Where in `bytes` a packet begins, at `from` or later.
+    /// The place in `bytes` where a packet begins, at `from` or later.
     fn find_packet(&self, from: usize, last_ns: Option<i64>) -> Option<usize> {
         let size = self.parser.packet_bytes();
         let barren = self.barren();
@@ -246,7 +246,7 @@ impl<R: Read> PacketSamples<R> {
         self.next += size;
     }
 
-    /// What is left at the end of the file, less than a packet.
+    /// The rest at the end of the file, which is less than a packet.
     fn last_piece(&mut self) -> Option<RawBlock> {
         let piece = &self.bytes[self.next..];
         if piece.is_empty() || self.end.is_some() {

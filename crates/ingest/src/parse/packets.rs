@@ -160,7 +160,7 @@ impl PacketParser {
         self.known_stamp_ns(packet).ok_or_else(text)
     }
 
-    /// The same, for those who try many places.
+    /// Reads a packet likewise, without an error text: for callers that try many places.
     pub(super) fn known_stamp_ns(&self, packet: &[u8]) -> Option<i64> {
         let ns = match self.whole(packet, self.stamp) {
             Some(units) => units.checked_mul(self.unit_ns),
@@ -182,7 +182,7 @@ impl PacketParser {
         column
     }
 
-    /// Which of the first `whole` samples are there; none for all. One is missing where all its channels say so, or one
+    /// A flag for each of the first `whole` samples that is true where it is there; none where all are. One is missing where all its channels say so, or one
     /// is not finite.
     fn present(&self, counts: &[Vec<f64>], whole: usize) -> Option<Vec<u32>> {
         let is_missing = |value: f64| self.missing.is_some_and(|missing| (value - missing).abs() < f64::EPSILON);

@@ -1,9 +1,9 @@
-//! What a parser makes of a packet or of some rows: values in physical units, times as the device wrote them.
+//! The output of a parser for one packet or some rows: values in physical units, times as the device wrote them.
 
 /// Consecutive samples as they stand in a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RawBlock {
-    /// When they were taken, on the device's clock.
+    /// The time at which they were taken, on the device's clock.
     pub stamps: Stamps,
     /// Number of the packet, where its header has one.
     pub sequence: Option<u32>,
@@ -28,24 +28,25 @@ pub enum Stamps {
         at_sample: i32,
         /// Samples in the packet, missing ones included.
         samples: u32,
-        /// Which of them are there; none for all.
+        /// A flag for each of them that is true where it is there; none where all are.
         present: Option<Vec<u32>>,
     },
     /// One stamp per sample.
     Each(Vec<i64>),
-    /// None: samples count from the file's first, this many before the first one here. Which are there as above.
+    /// There is no stamp: samples count from the first one of the file, and this many come before the first one here. Which are
+    /// there is given as above.
     Counted {
         /// Number of the first sample.
         first: u64,
         /// Samples, missing ones included.
         samples: u32,
-        /// Which of them are there; none for all.
+        /// A flag for each of them that is true where it is there; none where all are.
         present: Option<Vec<u32>>,
     },
 }
 
 impl RawBlock {
-    /// How many samples it has.
+    /// The number of samples that it has.
     #[must_use]
     pub fn len(&self) -> usize {
         self.channels.first().map_or(0, Vec::len)

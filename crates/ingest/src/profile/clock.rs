@@ -1,4 +1,4 @@
-//! What the numbers of a clock mean.
+//! The meaning of a clock's numbers.
 
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +42,7 @@ impl TimeUnit {
     }
 }
 
-/// What a time counts from.
+/// The zero of a time.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Epoch {

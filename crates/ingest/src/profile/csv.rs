@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::{Epoch, TimeUnit};
 
-/// What a CSV file looks like, whatever its columns.
+/// The form of a CSV file, whatever its columns.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CsvFormat {
-    /// What separates columns: one ASCII character.
+    /// The separator of columns: one ASCII character.
     pub delimiter: char,
     /// Lines before the line of column names.
     pub skip_lines: u32,
@@ -31,7 +31,7 @@ fn yes() -> bool {
     true
 }
 
-/// What gives a row its time: exactly one of `column` and `rows_per_s` and `rows_over_s`.
+/// The source of a row's time: exactly one of `column` and `rows_per_s` and `rows_over_s`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RowTime {
@@ -44,7 +44,7 @@ pub struct RowTime {
     /// strptime pattern of its texts; one without a zone is in the study's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub format: Option<String>,
-    /// What its numbers count from.
+    /// The zero of its numbers.
     pub epoch: Epoch,
     /// The counter starts anew after 2^`wrap_bits` units.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -71,7 +71,7 @@ pub struct AccelerationColumns {
     pub y: String,
     /// Sensor z, in counts.
     pub z: String,
-    /// What separates columns: one ASCII character.
+    /// The separator of columns: one ASCII character.
     #[serde(default = "comma")]
     pub delimiter: char,
     /// Lines before the line of column names.
@@ -93,7 +93,7 @@ pub struct RangeColumns {
     pub time: RowTime,
     /// Reading, in counts.
     pub range: String,
-    /// What separates columns: one ASCII character.
+    /// The separator of columns: one ASCII character.
     #[serde(default = "comma")]
     pub delimiter: char,
     /// Lines before the line of column names.
@@ -108,7 +108,7 @@ pub struct RangeColumns {
 }
 
 impl AccelerationColumns {
-    /// What the file looks like.
+    /// The form of the file.
     #[must_use]
     pub fn format(&self) -> CsvFormat {
         let Self { delimiter, skip_lines, header, decimal_comma, .. } = *self;
@@ -117,7 +117,7 @@ impl AccelerationColumns {
 }
 
 impl RangeColumns {
-    /// What the file looks like.
+    /// The form of the file.
     #[must_use]
     pub fn format(&self) -> CsvFormat {
         let Self { delimiter, skip_lines, header, decimal_comma, .. } = *self;

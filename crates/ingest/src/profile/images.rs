@@ -1,4 +1,4 @@
-//! Where the images are, and when they were taken.
+//! The files of the images, and the source of their times.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 pub struct Images {
     /// Patterns relative to the card; `*` stays within a folder, `**` does not.
     pub files: Vec<String>,
-    /// What gives an image its time.
+    /// The source of an image's time.
     pub time: ImageTime,
 }
 
-/// What gives an image its time.
+/// The source of an image's time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "from", rename_all = "snake_case", deny_unknown_fields)]
 pub enum ImageTime {

@@ -8,13 +8,13 @@ use super::{Epoch, TimeUnit};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PacketLayout {
-    /// What precedes the samples, in order. One field is named `stamp`: the packet's time. One may be named `sequence`: a
+    /// The fields that precede the samples, in order. One field is named `stamp`: the packet's time. One may be named `sequence`: a
     /// number that rises by one from packet to packet.
     pub header: Vec<HeaderField>,
-    /// What the stamp means.
+    /// The meaning of the stamp.
     #[serde(default, skip_serializing_if = "is_default")]
     pub stamp: PacketStamp,
-    /// What gives the step between a packet's samples.
+    /// The source of the step between a packet's samples.
     #[serde(default, skip_serializing_if = "is_default")]
     pub step: Step,
     /// Byte order of header and samples.
@@ -111,7 +111,7 @@ pub enum SampleOrder {
     Interleaved,
 }
 
-/// What a packet's stamp means.
+/// The meaning of a packet's stamp.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PacketStamp {
@@ -119,7 +119,7 @@ pub struct PacketStamp {
     pub unit: TimeUnit,
     /// Which moment of the packet it is.
     pub at: StampAt,
-    /// What it counts from.
+    /// Its zero.
     pub epoch: Epoch,
     /// The counter starts anew after 2^`wrap_bits` units.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -147,7 +147,7 @@ pub enum StampAt {
     End,
 }
 
-/// What gives the step between the samples of a packet.
+/// The source of the step between the samples of a packet.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Step {

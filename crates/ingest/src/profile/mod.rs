@@ -98,7 +98,7 @@ pub struct AccelerationStream {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CwaFiles {
-    /// What the device's clock shows: [`Epoch::Unix`] where it was set to UTC, else [`Epoch::LocalAtStart`].
+    /// The time that the device's clock shows: [`Epoch::Unix`] where it was set to UTC, else [`Epoch::LocalAtStart`].
     pub epoch: Epoch,
 }
 

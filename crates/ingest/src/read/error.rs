@@ -13,7 +13,7 @@ pub struct ReadError {
     damage: Damage,
 }
 
-/// What is wrong with the file.
+/// The damage of a file.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Damage {
     #[error("cannot be read: {0}")]

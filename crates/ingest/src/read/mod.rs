@@ -26,7 +26,7 @@ use crate::timeline::Timeline;
 use error::Damage;
 use summary::Index;
 
-/// What the MCAP file of a session says of itself.
+/// The metadata of a session's MCAP file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionMetadata {
     /// Name of the session.
@@ -49,11 +49,11 @@ pub struct SessionMetadata {
     pub inputs_sha256: BTreeMap<String, String>,
     /// Samples and images in the file.
     pub counts: Counts,
-    /// What the clocks did.
+    /// The account of the clocks.
     pub timeline: Timeline,
     /// Images of the card that could not be used, sorted by file.
     pub dropped_images: Vec<DroppedImage>,
-    /// What was wrong with the card.
+    /// The problems of the card.
     pub problems: Vec<Problem>,
 }
 
@@ -106,7 +106,7 @@ impl SessionReader {
         Ok(Self { path: path.to_owned(), file, index, metadata, images: None })
     }
 
-    /// What the file says of itself.
+    /// The metadata of the file.
     #[must_use]
     pub fn metadata(&self) -> &SessionMetadata {
         &self.metadata
@@ -144,7 +144,7 @@ impl SessionReader {
     /// Calls `each` with time and specific force (g, device frame) of all samples of the accelerometer, in order of time.
     ///
     /// # Errors
-    /// As [`Self::for_each_sample`].
+    /// The errors of [`Self::for_each_sample`].
     pub fn for_each_acceleration(&mut self, each: impl FnMut(UtcNs, [f32; 3])) -> Result<(), ReadError> {
         let read = samples::for_each::<samples::Acceleration>(&self.file, &self.index, topic::ACCELERATION, each);
         read.map_err(|damage| ReadError::new(&self.path, damage))
@@ -153,7 +153,7 @@ impl SessionReader {
     /// Calls `each` with time and range (mm, codes included) of all samples of the range sensor, in order of time.
     ///
     /// # Errors
-    /// As [`Self::for_each_sample`].
+    /// The errors of [`Self::for_each_sample`].
     pub fn for_each_range(&mut self, each: impl FnMut(UtcNs, f32)) -> Result<(), ReadError> {
         let read = samples::for_each::<samples::Range>(&self.file, &self.index, topic::RANGE, each);
         read.map_err(|damage| ReadError::new(&self.path, damage))
@@ -169,7 +169,7 @@ impl SessionReader {
     /// carried along, in order of time; never for a name that is not in [`Self::extra_channels`].
     ///
     /// # Errors
-    /// As [`Self::for_each_sample`].
+    /// The errors of [`Self::for_each_sample`].
     pub fn for_each_extra(&mut self, name: &str, each: impl FnMut(UtcNs, f32)) -> Result<(), ReadError> {
         let topic = format!("{}{name}", topic::EXTRA);
         let read = samples::for_each::<samples::Extra>(&self.file, &self.index, &topic, each);

@@ -5,7 +5,7 @@ use model::UtcNs;
 /// Consecutive samples of one sensor, in order of time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Block {
-    /// When they were taken.
+    /// The time at which they were taken.
     pub times: Times,
     /// Number of the packet, where it has one.
     pub sequence: Option<u32>,
@@ -24,7 +24,7 @@ pub enum Times {
         first: UtcNs,
         /// From each to the next, ns; positive.
         step_ns: f64,
-        /// How many.
+        /// The number of them.
         samples: usize,
     },
     /// Each its own, in order.
@@ -38,7 +38,7 @@ impl Times {
         self.len() == 0
     }
 
-    /// How many.
+    /// The number of them.
     pub fn len(&self) -> usize {
         match self {
             Self::Even { samples, .. } => *samples,

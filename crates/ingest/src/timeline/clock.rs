@@ -61,7 +61,7 @@ impl Clock {
         self.anchor
     }
 
-    /// The same, for what comes from now on. Another anchor is another start of the device: its counter starts anew.
+    /// Sets the anchor for all stamps from now on. Another anchor is another start of the device: its counter starts anew.
     pub fn set_anchor(&mut self, anchor: Option<UtcNs>) {
         if self.anchor != anchor {
             self.last_unwrapped = None;

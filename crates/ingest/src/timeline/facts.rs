@@ -1,4 +1,4 @@
-//! What the clocks of a session did.
+//! The account of a session's clocks.
 
 use model::UtcNs;
 use serde::{Deserialize, Serialize};
@@ -59,7 +59,7 @@ impl Span {
     }
 }
 
-/// What one sensor's samples say of its clock.
+/// The facts about one sensor's clock, by its samples.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct StreamFacts {
     /// Samples used.
@@ -95,13 +95,13 @@ pub struct StreamFacts {
     pub first_misplaced: Option<UtcNs>,
     /// Packets that were there twice and are used once.
     pub duplicates: u64,
-    /// How often the clock was set while recording went on.
+    /// The number of times that the clock was set while recording went on.
     pub jumps: u64,
-    /// Where it was; the first [`LISTED`].
+    /// The times at which it was; the first [`LISTED`].
     pub clock_jumps: Vec<ClockJump>,
     /// Stretches of one time line each: one more than clock jumps, at most [`LISTED`]. Gaps do not end a stretch.
     pub stretches: Vec<Span>,
-    /// Where samples were, by stretch: a stretch without its gaps. At most twice [`LISTED`]; kept while ingest runs.
+    /// The times between which there were samples, by stretch: a stretch without its gaps. At most twice [`LISTED`]; kept while ingest runs.
     #[serde(skip)]
     pub covered: Vec<(u64, Span)>,
     /// Whether the times come from a declared rate or duration, and not from stamps.

@@ -47,7 +47,7 @@ impl Line {
         }
     }
 
-    /// What is known so far that is not in the blocks.
+    /// The facts so far that are not in the blocks.
     pub fn facts_mut(&mut self) -> &mut StreamFacts {
         &mut self.account.facts
     }

@@ -71,7 +71,7 @@ pub struct SampleTimes {
     waiting: Option<BlockStamp>,
     /// Step between the stamps of the block before and of the waiting one.
     step_before_ns: Option<f64>,
-    /// Where the block before ends and the waiting one begins.
+    /// The time at which the block before ends and the waiting one begins.
     border_ns: Option<i64>,
     last_step_ns: Option<f64>,
 }

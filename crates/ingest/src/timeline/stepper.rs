@@ -33,7 +33,7 @@ impl Stepper {
         Self { clock, step, nominal_step_ns: 1e9 / nominal_rate_hz, waiting: None, stamped, refused: None }
     }
 
-    /// Where the clock of a boot-relative counter was zero, for what is pushed from now on.
+    /// The time at which the clock of a boot-relative counter was zero, for what is pushed from now on.
     pub fn set_anchor(&mut self, anchor: Option<UtcNs>) {
         self.clock.set_anchor(anchor);
     }

@@ -8,7 +8,7 @@ use super::samples::Layout;
 /// Bytes of a data block.
 pub const BLOCK_BYTES: usize = 512;
 
-/// How a data block begins: "AX" and the number of bytes that follow, 508.
+/// The first bytes of a data block: "AX" and the number of bytes that follow, 508.
 pub(super) const MAGIC: [u8; 4] = [b'A', b'X', 0xfc, 0x01];
 
 /// Set when the field holds the fraction of the stamp's second; the field else holds the logger's number.

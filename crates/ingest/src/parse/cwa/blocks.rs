@@ -61,12 +61,12 @@ impl<R: Read> CwaBlocks<R> {
         }
     }
 
-    /// What there was so far.
+    /// The facts of the blocks read so far.
     pub fn facts(&self) -> &CwaFacts {
         &self.facts
     }
 
-    /// What there was, and the reader.
+    /// Returns the facts of all blocks, and the reader.
     pub fn finish(self) -> (CwaFacts, R) {
         (self.facts, self.window.into_reader())
     }

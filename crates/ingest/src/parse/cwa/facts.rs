@@ -1,8 +1,8 @@
-//! What a CWA file holds and what was lost of it.
+//! The contents of a CWA file, and the losses.
 
 use super::{BlockError, Header};
 
-/// What a CWA file holds and what was lost of it.
+/// The contents of a CWA file, and the losses.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CwaFacts {
     /// The header; none when the file does not begin with one.
@@ -15,7 +15,7 @@ pub struct CwaFacts {
     pub bytes_lost: u64,
     /// The block that the file ends in.
     pub truncated: Option<TruncatedBlock>,
-    /// How often a block's number was not the one to be expected.
+    /// The number of times that a block's number was not the one to be expected.
     pub sequence_jumps: u64,
     /// The first ones of them, at most [`CwaFacts::JUMPS_KEPT`].
     pub first_jumps: Vec<SequenceJump>,
@@ -26,18 +26,18 @@ pub struct CwaFacts {
 /// Blocks not used, of one kind.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BadBlocks {
-    /// How many. A stretch without the beginning of a block counts once.
+    /// The number of them. A stretch without the beginning of a block counts once.
     pub blocks: u64,
-    /// Where in the file the first one begins.
+    /// The place in the file where the first one begins.
     pub first_offset: u64,
-    /// What is wrong with the first one.
+    /// The fault of the first one.
     pub first: BlockError,
 }
 
 /// The file ends inside a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TruncatedBlock {
-    /// Where in the file it begins.
+    /// The place in the file where it begins.
     pub offset: u64,
     /// Bytes there are, of [`super::BLOCK_BYTES`].
     pub got: usize,
@@ -46,7 +46,7 @@ pub struct TruncatedBlock {
 /// A block whose number is not the one to be expected: blocks are missing or doubled, or the logger started anew.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SequenceJump {
-    /// Where in the file the block begins.
+    /// The place in the file where the block begins.
     pub offset: u64,
     /// The number that follows, damaged blocks in between included.
     pub expected: u32,
@@ -57,9 +57,9 @@ pub struct SequenceJump {
 /// The system cannot read on.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ReadFailure {
-    /// Where in the file reading stopped.
+    /// The place in the file where reading stopped.
     pub offset: u64,
-    /// What the system says.
+    /// The message of the operating system.
     pub message: String,
 }
 

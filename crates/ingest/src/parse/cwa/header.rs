@@ -7,10 +7,10 @@ use super::fields::{bytes_at, civil, nominal_rate_hz, range_g, u16_at, u32_at};
 /// Bytes of a header.
 pub const HEADER_BYTES: usize = 1024;
 
-/// How a header begins: "MD" and the number of bytes that follow, 1020.
+/// The first bytes of a header: "MD" and the number of bytes that follow, 1020.
 const MAGIC: [u8; 4] = [b'M', b'D', 0xfc, 0x03];
 
-/// What the logger was set to. Nothing of it is needed to read the blocks, and no checksum guards it.
+/// The settings of the logger. Nothing of them is needed to read the blocks, and no checksum guards them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Header {
     /// The logger's make.
@@ -23,9 +23,9 @@ pub struct Header {
     pub nominal_rate_hz: Option<f64>,
     /// Full scale of the accelerometer in g.
     pub range_g: u8,
-    /// When the recording was to start, on the logger's clock; none when it was not limited.
+    /// The time at which the recording was to start, on the logger's clock; none when it was not limited.
     pub logging_start: Option<DateTime>,
-    /// When the recording was to end, on the logger's clock; none when it was not limited.
+    /// The time at which the recording was to end, on the logger's clock; none when it was not limited.
     pub logging_end: Option<DateTime>,
     /// Revision of the firmware.
     pub firmware: u8,

@@ -3,7 +3,7 @@
 use super::block::{BLOCK_BYTES, BlockError};
 use super::fields::{bytes_at, u32_at};
 
-/// Where the samples begin.
+/// The place where the samples begin.
 const SAMPLES_OFFSET: usize = 30;
 
 /// Bytes for samples in a block.

@@ -12,7 +12,7 @@ pub(super) struct Window<R> {
     buffer: Vec<u8>,
     start: usize,
     end: usize,
-    /// Where `start` is in the file.
+    /// The place where `start` is in the file.
     offset: u64,
     is_at_end: bool,
     failure: Option<ReadFailure>,
@@ -24,7 +24,7 @@ impl<R: Read> Window<R> {
         Self { reader, buffer, start: 0, end: 0, offset: 0, is_at_end: false, failure: None }
     }
 
-    /// Where the next byte is in the file.
+    /// The place where the next byte is in the file.
     pub(super) fn offset(&self) -> u64 {
         self.offset
     }
