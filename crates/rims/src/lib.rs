@@ -21,6 +21,7 @@ mod find;
 mod found;
 mod height;
 mod outline;
+mod priors;
 mod rim;
 mod rim_height;
 mod shape;

@@ -4,15 +4,11 @@ use wide::{CmpLt, f32x4};
 
 use super::raster::{Chances, Odds, Raster, Sector};
 use crate::circles::Arc;
+use crate::priors::{FLOOR_LEVELS, FLOORS, FLOORS_TRIED, FloorLevel};
 
-/// Height of a floor above the table, in mm: foot ring and thickness; and how common.
-const LEVELS: [(f64, f64); 3] = [(4.0, 0.25), (7.5, 0.5), (11.0, 0.25)];
-/// Radius of the floor over that of the rim: mean and standard deviation, and what is tried.
-const COMMON: (f64, f64) = (0.56, 0.1);
-const TRIED: (f64, f64, f64) = (0.36, 0.8, 0.02);
-/// A floor that shows has an edge at this share of its places ...
+/// A floor that shows has an edge at this share of its places.
 const SHOWS: f64 = 0.7;
-/// ... and so many floors show.
+/// The share of floors that show.
 const SHOWING: f64 = 0.5;
 /// Places that are looked at.
 const PLACES: usize = 48;
@@ -48,15 +44,13 @@ impl<'a> Floors<'a> {
     /// Logarithm of how much likelier the edges within the rim are if it is as high as this than if nothing is known.
     pub(super) fn seen(&self, height_mm: f64) -> f64 {
         let (mut sum, mut all) = (0.0, 0.0);
-        for (level_mm, likely) in LEVELS {
+        for FloorLevel { height_mm: level_mm, share } in FLOOR_LEVELS {
             let level_mm = level_mm.min(0.6 * height_mm);
             let t = (self.camera_mm - height_mm) / (self.camera_mm - level_mm);
-            let mut ratio = TRIED.0;
-            while ratio < TRIED.1 {
-                let weight = likely * (-0.5 * ((ratio - COMMON.0) / COMMON.1).powi(2)).exp();
+            for ratio in FLOORS_TRIED.values() {
+                let weight = share * (-0.5 * ((ratio - FLOORS.mean) / FLOORS.sd).powi(2)).exp();
                 sum += weight * self.circle(t, ratio).exp();
                 all += weight;
-                ratio += TRIED.2;
             }
         }
         (1.0 - SHOWING + SHOWING * sum / all).ln()

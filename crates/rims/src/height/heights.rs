@@ -6,9 +6,12 @@
 //! ([`floor`](super::floor)) are known for every height, and the edges there say how likely it is.
 
 use super::floor::Floors;
-use super::raster::{Raster, Window};
+use super::raster::{ChanceLimits, Raster, Window};
 use super::wall::{Wall, Walls};
 use crate::circles::{Arc, Buckets};
+use crate::priors::{
+    CUPS_BY_DIAMETER, CUPS_MM, FEET, FEET_TRIED, HEIGHTS_TRIED, PLATES_BY_DIAMETER, ROUND_BOWLS, ROUND_PLATES,
+};
 use crate::rim_height::{HeightSource, RimHeight};
 
 /// Heights of a rim, if it is a plate's and if it is a bowl's.
@@ -20,34 +23,17 @@ pub(crate) struct Heights {
     pub plate_log_odds: f64,
 }
 
-/// What is common below, to the floor and the cups, are estimates of our own, not taken from a survey.
-///
-/// Height over diameter of plates: mean and standard deviation. Flat ones have 0.07 to 0.1, deep ones up to 0.16.
-const PLATES: (f64, f64) = (0.095, 0.035);
-/// The same of bowls: median and standard deviation of its logarithm. They lie between 0.25 and 0.6.
-const BOWLS: (f64, f64) = (0.4, 0.3);
-/// Height of cups, mugs and glasses in mm: median and standard deviation of its logarithm.
-const CUPS: (f64, f64) = (98.0, 0.22);
-/// Half of the hollow containers with this diameter are cups, and what it takes to make it 73 %: in mm.
-const HALF_CUPS_MM: (f64, f64) = (100.0, -5.0);
-/// Half of the containers with this diameter are plates, and what it takes to make it 73 %: in mm.
-const HALF_PLATES_MM: (f64, f64) = (175.0, 14.0);
-/// Foot over rim radius: mean and standard deviation.
-const FEET: (f64, f64) = (0.6, 0.17);
-/// Height over diameter that is tried, and the ratio of two tried one after the other.
-const TRIED: (f64, f64, f64) = (0.04, 2.2, 1.05);
-/// Foot over rim radius that is tried, and its steps.
-const FOOT: (f64, f64, f64) = (0.3, 1.04, 0.06);
-/// How round walls are that are tried: 0 a cone, 1 a quarter of an ellipse.
+/// The roundness of walls that is tried: 0 for a cone, 1 for a quarter of an ellipse.
 const ROUND: [f64; 3] = [0.0, 0.45, 0.9];
 /// A foot is looked for within this many radii of the rim's centre.
 const FURTHEST: f64 = 6.0;
 /// Walls bulge, feet have rounded edges and shadows: relative standard deviation of a height from that.
 const MODEL: f64 = 0.1;
-/// Least and greatest chance of an edge that means nothing.
-const CHANCE: (f64, f64) = (0.05, 0.7);
-/// Where it is counted: rings within and around the rim, in radii.
+/// The chance of an edge that means nothing is held between these limits.
+const CHANCE: ChanceLimits = ChanceLimits { least: 0.05, greatest: 0.7 };
+/// The ring within the rim in which that chance is counted: inner and outer radius, in radii of the rim.
 const WITHIN: [f64; 2] = [0.2, 0.85];
+/// The ring around the rim in which that chance is counted, likewise.
 const AROUND: [f64; 2] = [1.15, 1.8];
 /// A wall stands out from the table as its rim does, this share of it at least: a shadow does less.
 const AS_STRONG: f64 = 0.35;
@@ -112,7 +98,7 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
     let away = rim.disc.x.hypot(rim.disc.y);
     let scale = std::f64::consts::TAU * rim.disc.radius / rim.perimeter_px;
     // The lowest foot that is tried, and what is around it.
-    let furthest = away * (1.0 - shrink(rim, camera_mm, TRIED.1));
+    let furthest = away * (1.0 - shrink(rim, camera_mm, HEIGHTS_TRIED.below));
     let (lowest, center) = (furthest + rim.disc.radius, [rim.disc.x, rim.disc.y]);
     let toward = center.map(|c| -c / away.max(1e-9));
     #[expect(clippy::cast_possible_truncation, reason = "levels")]
@@ -130,22 +116,18 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
     let floors = Floors::new(rim, &inside, &chances(&inside, WITHIN), scale, camera_mm);
     let walls = Walls::new(rim, &outside, &chances(&outside, AROUND), scale, camera_mm);
     let mut trials = Vec::new();
-    let mut ratio = TRIED.0;
-    while ratio < TRIED.1 {
+    for ratio in HEIGHTS_TRIED.values() {
         let shrink = shrink(rim, camera_mm, ratio);
         let height_mm = camera_mm * (1.0 - shrink);
         let within = INDEPENDENT * floors.seen(height_mm);
         let (plate, bowl) = common(ratio, 2.0 * rim.disc.radius * shrink);
         for round in ROUND {
-            let mut foot = FOOT.0;
-            while foot < FOOT.1 {
+            for foot in FEET_TRIED.values() {
                 let below = INDEPENDENT * walls.seen(&Wall { height_mm, foot, round });
-                let likely = -0.5 * ((foot - FEET.0) / FEET.1).powi(2);
+                let likely = -0.5 * ((foot - FEET.mean) / FEET.sd).powi(2);
                 trials.push(Trial { height_mm, below, within, plate: plate + likely, bowl: bowl + likely });
-                foot += FOOT.2;
             }
         }
-        ratio *= TRIED.2;
     }
     trials
 }
@@ -156,7 +138,7 @@ fn around(rim: &Arc, toward: [f64; 2], furthest: f64) -> Window {
     let (from, radius) = ([rim.disc.x, rim.disc.y], rim.disc.radius);
     let corner = |pick: fn(f64, f64) -> f64, side: f64| {
         [0, 1].map(|axis| {
-            let foot = from[axis] + toward[axis] * furthest + side * FOOT.1 * radius;
+            let foot = from[axis] + toward[axis] * furthest + side * FEET_TRIED.below * radius;
             pick(from[axis] + side * AROUND[1] * radius, foot)
         })
     };
@@ -166,12 +148,11 @@ fn around(rim: &Arc, toward: [f64; 2], furthest: f64) -> Window {
 /// Logarithms of how common a height (over diameter) is among plates, and among bowls and cups, of this diameter; per
 /// logarithm of the height.
 fn common(ratio: f64, diameter_mm: f64) -> (f64, f64) {
-    let share = |(half_mm, step_mm): (f64, f64)| 1.0 / (1.0 + ((half_mm - diameter_mm) / step_mm).exp());
     let normal = |off: f64, sd: f64| (-0.5 * (off / sd).powi(2)).exp() / sd;
-    let (plates, cups) = (share(HALF_PLATES_MM), share(HALF_CUPS_MM));
-    let plate = plates * ratio * normal(ratio - PLATES.0, PLATES.1);
-    let bowl = (1.0 - cups) * normal((ratio / BOWLS.0).ln(), BOWLS.1);
-    let cup = cups * normal((ratio * diameter_mm / CUPS.0).ln(), CUPS.1);
+    let (plates, cups) = (PLATES_BY_DIAMETER.at_diameter(diameter_mm), CUPS_BY_DIAMETER.at_diameter(diameter_mm));
+    let plate = plates * ratio * normal(ratio - ROUND_PLATES.mean, ROUND_PLATES.sd);
+    let bowl = (1.0 - cups) * normal((ratio / ROUND_BOWLS.median).ln(), ROUND_BOWLS.ln_sd);
+    let cup = cups * normal((ratio * diameter_mm / CUPS_MM.median).ln(), CUPS_MM.ln_sd);
     let log = |likely: f64| likely.max(1e-12).ln();
     (log(plate), log((1.0 - plates).max(1e-3) * (bowl + cup)))
 }

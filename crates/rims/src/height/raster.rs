@@ -25,6 +25,13 @@ const LEAST_NORMAL: f32 = 1e-5;
 const TURNS: u32 = 60;
 const RINGS: u32 = 16;
 
+/// Limits of the chance that a place has an edge that means nothing, from 0 to 1.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ChanceLimits {
+    pub least: f64,
+    pub greatest: f64,
+}
+
 /// Chance of an edge that means nothing, by the direction of its normal.
 pub(super) struct Chances([f64; SECTORS as usize]);
 
@@ -150,7 +157,7 @@ impl Raster {
 
     /// For each sector of directions, the share of the places in a ring about a circle that have an edge with such a normal:
     /// what chance makes of a look, on striped cloth much in one direction and little in others.
-    pub(super) fn chances(&self, disc: &Disc, rings: [f64; 2], limits: (f64, f64)) -> Chances {
+    pub(super) fn chances(&self, disc: &Disc, rings: [f64; 2], limits: ChanceLimits) -> Chances {
         let mut held = [0_u32; SECTORS as usize];
         for turn in 0..TURNS {
             let angle = f64::from(turn) / f64::from(TURNS) * std::f64::consts::TAU;
@@ -163,7 +170,7 @@ impl Raster {
                 }
             }
         }
-        Chances(held.map(|held| (f64::from(held) / f64::from(TURNS * RINGS)).clamp(limits.0, limits.1)))
+        Chances(held.map(|held| (f64::from(held) / f64::from(TURNS * RINGS)).clamp(limits.least, limits.greatest)))
     }
 
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]

@@ -7,8 +7,10 @@ use crate::circles::Arc;
 const LEVELS: usize = 8;
 /// Scaled pixels from the rim within which edges are the rim's.
 const CLEAR_PX: f64 = 4.0;
-/// A foot shows an edge at this share of its places, a wall (seldom as round as assumed) at this share of its.
-const SHOWS: (f64, f64) = (0.85, 0.5);
+/// A foot shows an edge at this share of its places.
+const FOOT_SHOWS: f64 = 0.85;
+/// A wall shows an edge at this share of its places: it is seldom as round as assumed.
+const WALL_SHOWS: f64 = 0.5;
 /// Scaled pixels between the places that are looked at.
 const STEP_PX: f64 = 3.0;
 /// Directions of the outline that are tried, at least, in half a turn.
@@ -92,8 +94,8 @@ impl<'a> Walls<'a> {
         Self {
             rim,
             raster,
-            foot: chances.odds(SHOWS.0),
-            wall: chances.odds(SHOWS.1),
+            foot: chances.odds(FOOT_SHOWS),
+            wall: chances.odds(WALL_SHOWS),
             camera_mm,
             step,
             clear_mm: rim.disc.radius + CLEAR_PX * scale,

@@ -22,15 +22,19 @@ const OUTWARD: f64 = 0.08;
 const THICKEST_MM: f64 = 11.0;
 /// Pictures of many pixels are looked at in steps of this many pixels of the reduced scale: their lenses resolve no more.
 const UNIT: f64 = 0.5;
-/// What chance makes is counted from and to so many pixels further out.
-const TABLE_PX: (f64, f64) = (2.5, 16.0);
+/// The share that chance gives is counted on circles further out: the nearest one is so many pixels away ...
+const NEAREST_TABLE_PX: f64 = 2.5;
+/// ... and the furthest one so many.
+const FURTHEST_TABLE_PX: f64 = 16.0;
 /// Edges within this many pixels of a circle are along it.
 const ALONG_PX: f64 = 1.0;
 /// Pixels between the circles that fits start from, and how near an edge must be from fit to fit.
 const STEP_PX: f64 = 1.0;
 const WIDTHS_PX: [f64; 4] = [2.5, 1.8, 1.3, 1.1];
-/// A centre moves by so many pixels at most, or by this share of the radius: edges of a rim share an axis.
-const MOST_MOVED: (f64, f64) = (4.0, 0.04);
+/// A centre moves by so many pixels at most, or by [`MOST_MOVED_SHARE`] where that is more: edges of a rim share an axis.
+const MOST_MOVED_PX: f64 = 4.0;
+/// A centre moves by this share of the radius at most, likewise.
+const MOST_MOVED_SHARE: f64 = 0.04;
 /// Fits that differ by less, in pixels, are the same; narrower rings tell nothing.
 const SAME_PX: f64 = 0.4;
 const NARROWEST_PX: f64 = 1.0;
@@ -72,7 +76,7 @@ fn best_edge(picture: &Picture, view: &View, arc: &Arc, px_mm: f64) -> Option<Ou
     let radius_px = arc.disc.radius / px_mm;
     let furthest_px = (OUTWARD * radius_px).min(THICKEST_MM / px_mm);
     // A little more on both sides, for centres that move, and the rings' surroundings.
-    let (inward_px, outward_px) = (1.5 * INWARD * radius_px + 4.0, furthest_px + TABLE_PX.1 + 4.0);
+    let (inward_px, outward_px) = (1.5 * INWARD * radius_px + 4.0, furthest_px + FURTHEST_TABLE_PX + 4.0);
     let rays = rays(picture, view, arc, Span { inward_px, outward_px, px_mm });
     let edges = edges(&rays, radius_px, furthest_px);
     let best_seen = edges.iter().map(|edge| edge.seen).fold(0.0, f64::max);
@@ -86,7 +90,7 @@ fn edges(rays: &[Ray], radius_px: f64, furthest_px: f64) -> Vec<Edge> {
     if showing < LEAST_DIRECTIONS {
         return Vec::new();
     }
-    let most_moved = MOST_MOVED.0.max(MOST_MOVED.1 * radius_px);
+    let most_moved = MOST_MOVED_PX.max(MOST_MOVED_SHARE * radius_px);
     let mut found: Vec<Edge> = Vec::new();
     let mut start = -INWARD * radius_px;
     while start <= furthest_px {
@@ -110,8 +114,10 @@ fn seen(rays: &[Ray], moved: &Moved, showing: usize) -> f64 {
         let is_along = |ray: &&Ray| ray.nearest(at_px(ray, moved) + further_px).is_some_and(|off| off.abs() < ALONG_PX);
         rays.iter().filter(is_along).count() as f64 / showing as f64
     };
-    let chance =
-        (0..10).map(|i| share(TABLE_PX.0 + (TABLE_PX.1 - TABLE_PX.0) * f64::from(i) / 9.0)).sum::<f64>() / 10.0;
+    let chance = (0..10)
+        .map(|i| share(NEAREST_TABLE_PX + (FURTHEST_TABLE_PX - NEAREST_TABLE_PX) * f64::from(i) / 9.0))
+        .sum::<f64>()
+        / 10.0;
     (share(0.0) - chance) / (1.0 - chance).max(0.05)
 }
 

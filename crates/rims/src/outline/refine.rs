@@ -7,9 +7,12 @@ use nalgebra::{Point2, Point3, Vector2};
 use crate::circles::{Arc, BINS};
 use crate::colour::colour;
 
-/// Pixels between places where the rim is looked for, and how many there are at least and at most.
+/// Pixels between places where the rim is looked for.
 const SPACING_PX: f64 = 4.0;
-const PLACES: (f64, f64) = (48.0, 96.0);
+/// The least number of such places.
+const FEWEST_PLACES: f64 = 48.0;
+/// The greatest number of such places.
+const MOST_PLACES: f64 = 96.0;
 /// The edge lies within this many scaled pixels of the fitted circle ...
 const REACH_PX: f64 = 1.2;
 /// ... and has this share of the median edge's strength.
@@ -45,7 +48,7 @@ pub(crate) struct Followed {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "places")]
 pub(crate) fn follow(picture: &Picture, view: &View, arc: &Arc, factor: usize) -> Followed {
     let perimeter_px = arc.perimeter_px * factor as f64;
-    let places = (perimeter_px / SPACING_PX).clamp(PLACES.0, PLACES.1) as usize;
+    let places = (perimeter_px / SPACING_PX).clamp(FEWEST_PLACES, MOST_PLACES) as usize;
     let found: Vec<Found> = (0..places)
         .map(|i| i as f64 / places as f64)
         .filter(|turn| arc.bins[((turn * BINS as f64) as usize).min(BINS - 1)] != 0)

@@ -9,8 +9,12 @@ const TESTS_LOG10: f64 = 7.0;
 /// Edges nearer to each other than this many scaled pixels are not independent.
 const INDEPENDENT_PX: f64 = 6.0;
 
-/// Sharpness, roughness and unlikeness before the full picture tells them: what is common.
-const UNSEEN: (f64, f64, f64) = (0.72, 6.0, 0.1);
+/// The sharpness of a side that is common, until the full picture shows its own.
+const COMMON_SHARPNESS: f64 = 0.72;
+/// The roughness on either side that is common, in levels, likewise.
+const COMMON_ROUGHNESS: f64 = 6.0;
+/// The distance from a shadow that is common, likewise.
+const COMMON_UNLIKENESS: f64 = 0.1;
 
 /// What speaks for a rectangle, before it is followed through the full picture.
 pub(super) fn evidence(support: &Support, levels: &Levels) -> SquareEvidence {
@@ -30,9 +34,9 @@ pub(super) fn evidence(support: &Support, levels: &Levels) -> SquareEvidence {
         above: levels.above,
         clutter: levels.clutter,
         contrast: support.contrast,
-        sharp: UNSEEN.0,
-        rough_in: UNSEEN.1,
-        rough_out: UNSEEN.1,
-        unlike: UNSEEN.2,
+        sharp: COMMON_SHARPNESS,
+        rough_in: COMMON_ROUGHNESS,
+        rough_out: COMMON_ROUGHNESS,
+        unlike: COMMON_UNLIKENESS,
     }
 }

@@ -7,9 +7,12 @@ use nalgebra::{Point2, Point3, Vector2};
 use super::quad::{Quad, Side, Straight};
 use crate::colour::colour;
 
-/// Pixels between places where a side is looked for, and how many there are at least and at most.
+/// Pixels between places where a side is looked for.
 const SPACING_PX: f64 = 4.0;
-const PLACES: (f64, f64) = (16.0, 48.0);
+/// The least number of such places.
+const FEWEST_PLACES: f64 = 16.0;
+/// The greatest number of such places.
+const MOST_PLACES: f64 = 48.0;
 /// Shares of a side next to its corners, which may be rounded, are left out.
 const CORNER_SHARE: f64 = 0.1;
 /// The edge lies within this many scaled pixels of the side ...
@@ -89,7 +92,7 @@ fn line(picture: &Picture, view: &View, side: &Side, factor: f64) -> Option<(Str
     let pixel = |p: Point2<f64>| view.pixel_of(Point3::new(p.x, p.y, 0.0)).ok();
     let at = |share: f64| side.from + side.along * (share * side.length);
     let length_px = (pixel(at(1.0))? - pixel(at(0.0))?).norm();
-    let count = (length_px / SPACING_PX).clamp(PLACES.0, PLACES.1) as usize;
+    let count = (length_px / SPACING_PX).clamp(FEWEST_PLACES, MOST_PLACES) as usize;
     let share = |i: usize| CORNER_SHARE + (1.0 - 2.0 * CORNER_SHARE) * (i as f64 + 0.5) / count as f64;
     let mut found: Vec<Found> = (0..count)
         .filter_map(|i| {

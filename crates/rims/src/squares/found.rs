@@ -13,6 +13,7 @@ use super::quad::Quad;
 use super::support::Support;
 use crate::edges::GroundEdge;
 use crate::evidence::SquareEvidence;
+use crate::priors::{Normal, SQUARE_BOWLS, SQUARE_PLATES};
 use crate::rim::Rim;
 use crate::rim_height::{HeightSource, RimHeight};
 
@@ -156,8 +157,8 @@ impl Square {
             points_px: self.corners_px.to_vec(),
             perimeter_px: self.perimeter_px,
             evidence: self.evidence.as_of_a_rim(),
-            height: common_height(BOWLS, [a, b], camera_mm),
-            plate_height: common_height(PLATES, [a, b], camera_mm),
+            height: common_height(SQUARE_BOWLS, [a, b], camera_mm),
+            plate_height: common_height(SQUARE_PLATES, [a, b], camera_mm),
             on_table_mm: ([center.x, center.y], 0.25 * (a + b)),
             square: Some(self.evidence),
         }
@@ -166,16 +167,11 @@ impl Square {
 
 /// What has a well below a straight rim is a plate or a tray, whatever it looks like in other images; boxes are not told from them.
 const PLATE_LOG_ODDS: f64 = 10.0;
-/// Height over side of plates and bowls, by the square root of their area: mean and standard deviation. Estimates of our own, as
-/// those of round ones.
-const PLATES: (f64, f64) = (0.1, 0.035);
-const BOWLS: (f64, f64) = (0.38, 0.12);
-
-/// What is common, for sides as they appear on Z = 0: H = q D and D = d (1 - H / c).
-fn common_height((ratio, spread): (f64, f64), [a, b]: [f64; 2], camera_mm: f64) -> RimHeight {
+/// The height that is common, for sides as they appear on Z = 0: H = q D and D = d (1 - H / c).
+fn common_height(common: Normal, [a, b]: [f64; 2], camera_mm: f64) -> RimHeight {
     let side_mm = (a * b).sqrt();
-    let side_mm = side_mm / (1.0 + ratio * side_mm / camera_mm);
-    RimHeight { mm: ratio * side_mm, sigma_mm: spread * side_mm, source: HeightSource::Common }
+    let side_mm = side_mm / (1.0 + common.mean * side_mm / camera_mm);
+    RimHeight { mm: common.mean * side_mm, sigma_mm: common.sd * side_mm, source: HeightSource::Common }
 }
 
 /// A rectangle followed through the full picture; none where a corner lies outside of it.

@@ -13,9 +13,12 @@ use crate::edges::GroundEdge;
 const DROP_STEP: f64 = 0.004;
 const LEAST_DROP: f64 = 0.012;
 const MOST_DROP: f64 = 0.12;
-/// Widths of a flange that are tried, in mm, and as a share of the rectangle.
-const FLANGE_MM: (i32, i32) = (4, 80);
-const FLANGE_SHARE: f64 = 0.36;
+/// The narrowest flange that is tried, in mm.
+const NARROWEST_FLANGE_MM: i32 = 4;
+/// The widest flange that is tried, in mm, or [`WIDEST_FLANGE_SHARE`] where that is less.
+const WIDEST_FLANGE_MM: i32 = 80;
+/// The widest flange that is tried, as a share of the rectangle across.
+const WIDEST_FLANGE_SHARE: f64 = 0.36;
 /// Flanges of both pairs of sides are as wide within this share, and so many mm.
 const FLANGES_ALIKE: f64 = 0.2;
 const FLANGES_ALIKE_MM: f64 = 2.0;
@@ -98,14 +101,14 @@ fn nested(sides: &[Side; 4], lines: &[Lines; 4], drop: f64) -> Nested {
 /// Widths of a flange along side `k` and the one across from it.
 fn flanges(sides: &[Side; 4], k: usize) -> std::ops::RangeInclusive<i32> {
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
-    let most = FLANGE_MM.1.min((FLANGE_SHARE * sides[(k + 1) % 4].length) as i32);
-    FLANGE_MM.0..=most
+    let most = WIDEST_FLANGE_MM.min((WIDEST_FLANGE_SHARE * sides[(k + 1) % 4].length) as i32);
+    NARROWEST_FLANGE_MM..=most
 }
 
 /// From and to which place in the list of widths one pair of sides has, for a place in that of the other.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "mm")]
 fn alike(place: usize) -> (usize, usize) {
-    let first = f64::from(FLANGE_MM.0);
+    let first = f64::from(NARROWEST_FLANGE_MM);
     let flange = place as f64 + first;
     let low = flange * (1.0 - FLANGES_ALIKE) - FLANGES_ALIKE_MM - first;
     let high = flange * (1.0 + FLANGES_ALIKE) + FLANGES_ALIKE_MM - first;

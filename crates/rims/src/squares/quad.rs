@@ -4,10 +4,18 @@ use nalgebra::{Matrix2, Point2, Vector2};
 
 use crate::edges::GroundEdge;
 
-/// A part of a fit: how far from a side edges count, in mm and at least in scaled pixels.
-const PASSES: [(f64, f64); 4] = [(4.0, 4.0), (2.5, 3.0), (0.0, 2.0), (0.0, 1.5)];
-/// Edges that a fit may meet lie within so many mm, or scaled pixels, of a side's start.
-const GATHERED: (f64, f64) = (10.0, 6.0);
+/// A distance from a side: so many mm on the plane Z = 0, and at least so many scaled pixels.
+#[derive(Clone, Copy)]
+struct Reach {
+    mm: f64,
+    px: f64,
+}
+
+/// The distances within which edges count, from pass to pass of a fit.
+const PASSES: [Reach; 4] =
+    [Reach { mm: 4.0, px: 4.0 }, Reach { mm: 2.5, px: 3.0 }, Reach { mm: 0.0, px: 2.0 }, Reach { mm: 0.0, px: 1.5 }];
+/// Edges that a fit may meet lie within this distance of a side's start.
+const GATHERED: Reach = Reach { mm: 10.0, px: 6.0 };
 /// Edges along a side within 12 degrees of its direction are its own.
 const LEAST_COSINE: f64 = 0.978;
 /// Parts of a side next to its corners, which may be rounded, do not say where it is.
@@ -113,11 +121,11 @@ impl Quad {
         let mut quad = *self;
         let sides = self.sides();
         let is_beside = |side: &Side, e: &GroundEdge| {
-            side.parallel(e).is_some_and(|(_, off, _)| off.abs() < GATHERED.0.max(GATHERED.1 * f64::from(e.scale)))
+            side.parallel(e).is_some_and(|(_, off, _)| off.abs() < GATHERED.mm.max(GATHERED.px * f64::from(e.scale)))
         };
         let near: Vec<GroundEdge> =
             near.iter().filter(|e| sides.iter().any(|side| is_beside(side, e))).copied().collect();
-        for (mm, px) in PASSES {
+        for Reach { mm, px } in PASSES {
             let lines = quad.sides().map(|side| line(&side, &near, mm, px));
             quad = Self::of_lines(&lines)?;
         }

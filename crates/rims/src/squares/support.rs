@@ -13,10 +13,18 @@ const BIN_SHARE: f64 = 0.4;
 const ALONG_PX: f64 = 1.5;
 /// Lines along a side are looked at so far into the rectangle, in mm.
 const INSIDE_MM: i32 = 90;
-/// The table's own edges are counted from (scaled pixels) and to (mm) outside of a side.
-const TABLE: (f64, f64) = (4.0, 28.0);
-/// A side that goes on beyond its corner is a table's line: looked for from (scaled pixels) and to (mm) beyond it.
-const BEYOND: (f64, f64) = (5.0, 32.0);
+/// A stretch outside of a side or beyond a corner, in two units since edges are as wide as pixels, and tables are not.
+struct Stretch {
+    /// Where it begins, in scaled pixels.
+    from_px: f64,
+    /// Where it ends, in mm on the plane Z = 0.
+    to_mm: f64,
+}
+
+/// The table's own edges are counted in this stretch outside of a side.
+const TABLE: Stretch = Stretch { from_px: 4.0, to_mm: 28.0 };
+/// A side that goes on in this stretch beyond its corner is a line of the table.
+const BEYOND: Stretch = Stretch { from_px: 5.0, to_mm: 32.0 };
 /// A corner is seen if both sides have an edge in one of as many bins next to it.
 const CORNER_BINS: usize = 5;
 
@@ -110,7 +118,7 @@ impl Support {
         };
         let corners = (0..4).filter(|k| ends(*k)).count();
         // Length of the table's parallel edges per area, times the width in which an edge counts.
-        let around = (TABLE.1 - TABLE.0 * scale).max(1.0) * perimeter;
+        let around = (TABLE.to_mm - TABLE.from_px * scale).max(1.0) * perimeter;
         Self {
             coverage,
             steady: steady(&bins),
@@ -131,16 +139,16 @@ fn sums(side: &Side, near: &[GroundEdge]) -> Sums {
         let (length, scale) = (f64::from(e.length), f64::from(e.scale));
         let is_beside = (0.0..side.length).contains(&t);
         if off.abs() > ALONG_PX * scale {
-            if is_beside && (TABLE.0 * scale..TABLE.1).contains(&off) {
+            if is_beside && (TABLE.from_px * scale..TABLE.to_mm).contains(&off) {
                 sums.table += length;
             }
             continue;
         }
         if !is_beside {
             let out = if t < 0.0 { -t } else { t - side.length };
-            let from = BEYOND.0 * scale;
-            if (from..BEYOND.1).contains(&out) {
-                sums.beyond[usize::from(t > 0.0)] += length / (BEYOND.1 - from);
+            let from = BEYOND.from_px * scale;
+            if (from..BEYOND.to_mm).contains(&out) {
+                sums.beyond[usize::from(t > 0.0)] += length / (BEYOND.to_mm - from);
             }
             continue;
         }
