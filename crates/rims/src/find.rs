@@ -8,7 +8,7 @@ use crate::circles::{self, Buckets, Scored};
 use crate::edges::{Scaled, ground_edges};
 use crate::evidence::Evidence;
 use crate::height::{self, Heights};
-use crate::outline::{Followed, follow, outer_edge};
+use crate::outline::{Followed, RingPair, follow, outer_edge, pairs};
 use crate::rim::Rim;
 use crate::shape::RimShape;
 use crate::squares::squares;
@@ -56,14 +56,7 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
 /// # Errors
 /// [`RimError`] when the picture is not of the camera's size, or not all there.
 pub fn find_rims_of(picture: &Picture, view: &View, shapes: &[RimShape]) -> Result<Vec<Rim>, RimError> {
-    let found_px = [picture.width_px, picture.height_px];
-    if found_px != view.camera().size_px() {
-        return Err(RimError::Size { found_px, expected_px: view.camera().size_px() });
-    }
-    let expected = 3 * picture.width_px as usize * picture.height_px as usize;
-    if picture.rgb.len() != expected {
-        return Err(RimError::Bytes { found: picture.rgb.len(), expected });
-    }
+    check(picture, view)?;
     let scaled = Scaled::of(picture, view.camera().focal_px()[0]);
     let ground = ground_edges(view, &scaled);
     let mut rims = Vec::new();
@@ -78,6 +71,33 @@ pub fn find_rims_of(picture: &Picture, view: &View, shapes: &[RimShape]) -> Resu
     }
     rims.sort_by(|a, b| b.confidence.total_cmp(&a.confidence));
     Ok(rims)
+}
+
+/// The pairs of edges about the likely circles of a picture, of which the outer edges of the rims are chosen: the cases to which the
+/// set `ring` of weights.toml is fitted (example `rings`).
+///
+/// # Errors
+/// [`RimError`] when the picture is not of the camera's size, or not all there.
+pub fn ring_pairs(picture: &Picture, view: &View) -> Result<Vec<RingPair>, RimError> {
+    check(picture, view)?;
+    let scaled = Scaled::of(picture, view.camera().focal_px()[0]);
+    let ground = ground_edges(view, &scaled);
+    let (buckets, pieces) = (Buckets::new(&ground.edges), Buckets::new(&ground.pieces));
+    let found = circles::rims(view, &buckets, &pieces);
+    Ok(found.iter().flat_map(|found| pairs(picture, view, &found.arc, scaled.factor)).collect())
+}
+
+/// Whether the picture is the camera's, and all there.
+fn check(picture: &Picture, view: &View) -> Result<(), RimError> {
+    let found_px = [picture.width_px, picture.height_px];
+    if found_px != view.camera().size_px() {
+        return Err(RimError::Size { found_px, expected_px: view.camera().size_px() });
+    }
+    let expected = 3 * picture.width_px as usize * picture.height_px as usize;
+    if picture.rgb.len() != expected {
+        return Err(RimError::Bytes { found: picture.rgb.len(), expected });
+    }
+    Ok(())
 }
 
 /// A circle that was found, followed through the full picture; none where too little of it is seen there.

@@ -29,10 +29,13 @@ mod sizes;
 mod squares;
 #[cfg(test)]
 mod tests;
+mod weights;
 
 pub use evidence::{Evidence, FEATURES, SQUARE_FEATURES, SquareEvidence};
-pub use find::{LEAST_DIAMETER_MM, LEAST_POINTS, RimError, VERSION, find_rims, find_rims_of};
+pub use find::{LEAST_DIAMETER_MM, LEAST_POINTS, RimError, VERSION, find_rims, find_rims_of, ring_pairs};
 pub use found::Found;
+pub use outline::RingPair;
 pub use rim::Rim;
 pub use rim_height::{HeightSource, RimHeight, as_judged};
 pub use shape::{RimShape, UnknownRimShape};
+pub use weights::{FittedSet, RING_FEATURES, fitted_sets, weights_toml};

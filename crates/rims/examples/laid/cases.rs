@@ -5,7 +5,7 @@ use nalgebra::{Point2, Point3};
 use serde_json::{Value, json};
 use simulate::laid::Truth;
 
-use aim_batch_rims::Rim;
+use aim_batch_rims::{Rim, fitted_sets};
 
 use crate::{Case, Report};
 
@@ -51,6 +51,17 @@ impl Drawing {
 /// The lines of a picture.
 pub fn lines(report: &Report) -> impl Iterator<Item = String> {
     report.cases.iter().filter(|case| case.in_view).map(|case| format!("{}\n", line(case, &report.name)))
+}
+
+/// A line per container that was found: picture, 0, whether it is a plate, and the logarithm of the odds that it is, as large as it
+/// was before the weight of the set `kind` of weights.toml.
+pub fn kinds(report: &Report) -> impl Iterator<Item = String> {
+    let too_sure = fitted_sets()["kind"].weights[0];
+    let line = move |case: &Case| {
+        let is_plate = u8::from(case.kind == Kind::Plate);
+        Some(format!("{},0,{is_plate},{:.5}\n", report.name, case.found?.plate_log_odds * too_sure))
+    };
+    report.cases.iter().filter(|case| case.in_view).filter_map(line)
 }
 
 fn line(case: &Case, picture: &str) -> Value {

@@ -6,7 +6,8 @@
 //!
 //! Prints tables. With AIM_BATCH_LAID_PICTURES=DIR every picture is kept there as JPEG, and taken from there if it is there
 //! already. With AIM_BATCH_LAID_CSV=FILE, one line per rim found, drinking glasses' left out: picture, confidence, right or
-//! not, what its confidence is worked out from (for the example `confidence`). With AIM_BATCH_LAID_CASES=FILE, one line of JSON
+//! not, what its confidence is worked out from (for the example `weights`). With AIM_BATCH_LAID_KINDS=FILE, one line likewise per container found: whether it is a plate, and the
+//! logarithm of the odds that it is, as large as it was before the weight of the set `kind`. With AIM_BATCH_LAID_CASES=FILE, one line of JSON
 //! per container in view: errors, the true circle in the picture, and what was found of it.
 
 mod cases;
@@ -62,6 +63,8 @@ struct Found {
     height_sigmas: f64,
     /// Not only what is common.
     is_height_seen: bool,
+    /// Logarithm of the odds of a plate against a bowl.
+    plate_log_odds: f64,
 }
 
 /// A rim found.
@@ -96,7 +99,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         (0..benches).flat_map(|at| laid::bench(seed * 1000 + at, width)).flat_map(|plan| plan.frames).collect();
     let worn = laid::worn(seed, width, usize::try_from(sessions)?, usize::try_from(images)?);
     let worn: Vec<Frame> = worn.into_iter().flat_map(|plan| plan.frames).collect();
-    let (mut rims, mut csv, mut lines) = (Vec::new(), String::new(), String::new());
+    let (mut rims, mut csv, mut lines, mut kinds) = (Vec::new(), String::new(), String::new(), String::new());
     for (name, frames) in [("bench", bench), ("worn", worn)] {
         let examine = |(at, frame): (usize, &Frame)| {
             let view = frame.view(&camera).map_err(|e| e.to_string())?;
@@ -106,11 +109,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         write!(out, "{}", tables::summary(name, &reports))?;
         csv.extend(reports.iter().flat_map(|report| report.rims.iter().map(|rim| rim.csv(&report.name))));
         lines.extend(reports.iter().flat_map(cases::lines));
+        kinds.extend(reports.iter().flat_map(cases::kinds));
         rims.extend(reports.into_iter().flat_map(|report| report.rims));
     }
     write!(out, "{}", tables::reliability(&rims))?;
     if let Ok(file) = std::env::var("AIM_BATCH_LAID_CSV") {
         std::fs::write(file, csv)?;
+    }
+    if let Ok(file) = std::env::var("AIM_BATCH_LAID_KINDS") {
+        std::fs::write(file, kinds)?;
     }
     if let Ok(file) = std::env::var("AIM_BATCH_LAID_CASES") {
         std::fs::write(file, lines)?;
@@ -207,6 +214,7 @@ fn found(rim: &Rim, truth: &Truth, view: &View) -> Option<Found> {
         height: height.mm / truth.rim_level_mm - 1.0,
         height_sigmas: (height.mm - truth.rim_level_mm) / height.sigma_mm,
         is_height_seen: height.source != HeightSource::Common,
+        plate_log_odds: rim.plate_log_odds,
     })
 }
 

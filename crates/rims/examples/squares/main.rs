@@ -7,7 +7,7 @@
 //! TABLES have such a plate, OTHERS have mats, napkins, boxes and round plates (three pictures of each); bench and worn are
 //! those of the example `laid`. With AIM_BATCH_LAID_PICTURES=DIR every picture is kept there as JPEG, and taken from there if it
 //! is there already. With AIM_BATCH_LAID_CSV=FILE, one line per rectangle found: picture, confidence, right or not, what its
-//! confidence is worked out from (for the example `confidence`).
+//! confidence is worked out from (for the example `weights`).
 
 #[path = "../laid/pictures.rs"]
 mod pictures;

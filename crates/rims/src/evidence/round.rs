@@ -1,12 +1,11 @@
 //! What speaks for a circle, and how sure it is by that that it is a rim.
 
-/// Numbers that the confidence is worked out from.
-pub const FEATURES: usize = 10;
-/// Weights of [`Evidence::features`] in the logarithm of the odds that a circle is a rim: a logistic regression on rendered
-/// tables (docs/rims.md has the command).
-const CONFIDENCE: [f64; FEATURES] = [-14.53, 4.02, 1.07, 2.57, -5.88, -7.99, -9.41, 6.82, 1.31, 0.93];
+use crate::weights::ROUND_CONFIDENCE;
 
-/// What speaks for a circle.
+/// The number of features that the confidence is worked out from.
+pub const FEATURES: usize = 10;
+
+/// The evidence for a circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evidence {
     /// Share of the rim that lies in the picture.
@@ -42,7 +41,8 @@ impl Evidence {
         1.0 / (1.0 + (-score).exp())
     }
 
-    /// What the confidence is worked out from; see [`CONFIDENCE`].
+    /// The features that the confidence is worked out from; their weights are in weights.toml. They have no unit but those named on
+    /// the fields.
     #[must_use]
     pub fn features(&self) -> [f64; FEATURES] {
         [
@@ -61,7 +61,7 @@ impl Evidence {
 
     /// From 0 to 1: how often a circle with such evidence is the rim of a container.
     pub(crate) fn confidence(&self) -> f64 {
-        let score: f64 = self.features().iter().zip(CONFIDENCE).map(|(feature, weight)| feature * weight).sum();
+        let score: f64 = self.features().iter().zip(*ROUND_CONFIDENCE).map(|(feature, weight)| feature * weight).sum();
         1.0 / (1.0 + (-score).exp())
     }
 }

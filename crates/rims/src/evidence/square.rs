@@ -1,13 +1,10 @@
 //! What speaks for a rectangle, and how sure it is by that that it is the rim of a plate.
 
 use super::round::Evidence;
+use crate::weights::SQUARE_CONFIDENCE;
 
-/// Numbers that the confidence is worked out from.
+/// The number of features that the confidence is worked out from.
 pub const SQUARE_FEATURES: usize = 15;
-/// Weights of [`SquareEvidence::features`] in the logarithm of the odds that a rectangle is a rim: a logistic regression on
-/// rendered tables (docs/rims.md has the command).
-const CONFIDENCE: [f64; SQUARE_FEATURES] =
-    [-4.86, 3.09, -2.29, -3.44, -9.14, 1.24, 6.85, 1.01, 2.96, -19.67, -2.74, 0.75, -3.05, 1.12, 1.89];
 
 /// What speaks for a rectangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +62,8 @@ impl SquareEvidence {
         }
     }
 
-    /// What the confidence is worked out from; see [`CONFIDENCE`].
+    /// The features that the confidence is worked out from; their weights are in weights.toml. They have no unit but those named on
+    /// the fields.
     #[must_use]
     pub fn features(&self) -> [f64; SQUARE_FEATURES] {
         [
@@ -89,7 +87,7 @@ impl SquareEvidence {
 
     /// From 0 to 1: how often a rectangle with such evidence is the rim of a plate.
     pub(crate) fn confidence(&self) -> f64 {
-        let score: f64 = self.features().iter().zip(CONFIDENCE).map(|(feature, weight)| feature * weight).sum();
+        let score: f64 = self.features().iter().zip(*SQUARE_CONFIDENCE).map(|(feature, weight)| feature * weight).sum();
         1.0 / (1.0 + (-score).exp())
     }
 }

@@ -13,6 +13,7 @@ use crate::priors::{
     CUPS_BY_DIAMETER, CUPS_MM, FEET, FEET_TRIED, HEIGHTS_TRIED, PLATES_BY_DIAMETER, ROUND_BOWLS, ROUND_PLATES,
 };
 use crate::rim_height::{HeightSource, RimHeight};
+use crate::weights::{MISTAKEN, TOO_SURE_OF_KIND};
 
 /// Heights of a rim, if it is a plate's and if it is a bowl's.
 #[derive(Debug, Clone, Copy)]
@@ -39,13 +40,6 @@ const AROUND: [f64; 2] = [1.15, 1.8];
 const AS_STRONG: f64 = 0.35;
 /// Neighbouring places are not independent: what they say counts this much.
 const INDEPENDENT: f64 = 0.3;
-/// Share of what is taken for a foot or floor that is none, of bowls and of plates: a plate hides its foot, and prints and food
-/// look like its well. With that of plates their uncertainties are honest on rendered tables (docs/rims.md, seeds 11 to 13).
-const MISTAKEN: f64 = 0.15;
-const MISTAKEN_OF_PLATES: f64 = 0.25;
-/// Edges that speak for a plate or a bowl are not independent: the logarithm of their odds is so much too large (346 rendered
-/// containers of the same seeds).
-const TOO_SURE_OF_KIND: f64 = 3.0;
 /// What is seen tells a height if it speaks so much more for it than for what is common (logarithm).
 const SAYS: f64 = 4.0;
 
@@ -63,9 +57,9 @@ struct Trial {
 /// The heights of a rim.
 pub(crate) fn of_rim(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Heights {
     let trials = trials(buckets, rim, camera_mm);
-    let (plate, plates) = height(&trials, |t| t.plate, MISTAKEN_OF_PLATES);
-    let (bowl, bowls) = height(&trials, |t| t.bowl, MISTAKEN);
-    Heights { plate, bowl, plate_log_odds: (plates - bowls) / TOO_SURE_OF_KIND }
+    let (plate, plates) = height(&trials, |t| t.plate, MISTAKEN.plate);
+    let (bowl, bowls) = height(&trials, |t| t.bowl, MISTAKEN.bowl);
+    Heights { plate, bowl, plate_log_odds: (plates - bowls) / *TOO_SURE_OF_KIND }
 }
 
 /// Mean and deviation of the height, and the logarithm of the sum of all that speaks for it. `mistaken`: share of what is seen

@@ -12,8 +12,9 @@ use model::View;
 use nalgebra::{Matrix3, Vector3};
 
 use super::rays::{Ray, Span, rays};
-use super::rings::{Edge, Moved, at_px, odds};
+use super::rings::{Edge, Moved, at_px, features, odds};
 use crate::circles::Arc;
+use crate::weights::RING_FEATURES;
 
 /// Edges are looked for within these shares of the radius, inward and outward ...
 const INWARD: f64 = 0.06;
@@ -57,9 +58,7 @@ struct Outer {
 
 /// The same circle moved to the outer edge of the rim; as it was where none is clear.
 pub(crate) fn outer_edge(picture: &Picture, view: &View, arc: Arc, factor: usize) -> Arc {
-    #[expect(clippy::cast_precision_loss, reason = "a small factor")]
-    let (unit_px, full_px) = ((UNIT * factor as f64).max(1.0), arc.perimeter_px * factor as f64);
-    let px_mm = unit_px * std::f64::consts::TAU * arc.disc.radius / full_px.max(1.0);
+    let px_mm = px_mm(&arc, factor);
     let round = Arc { oval: [0.0; 2], ..arc.clone() };
     let of_round = best_edge(picture, view, &round, px_mm);
     let move_to = |from: Arc, outer: Outer| shifted(from, outer.edge.moved * px_mm);
@@ -71,8 +70,28 @@ pub(crate) fn outer_edge(picture: &Picture, view: &View, arc: Arc, factor: usize
     }
 }
 
+/// The length on the plane Z = 0, in mm, of the unit in which a circle's surroundings are looked at.
+fn px_mm(arc: &Arc, factor: usize) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "a small factor")]
+    let (unit_px, full_px) = ((UNIT * factor as f64).max(1.0), arc.perimeter_px * factor as f64);
+    unit_px * std::f64::consts::TAU * arc.disc.radius / full_px.max(1.0)
+}
+
 /// The outer edge of the rim near a circle.
 fn best_edge(picture: &Picture, view: &View, arc: &Arc, px_mm: f64) -> Option<Outer> {
+    let Candidates { rays, edges, best_seen } = candidates(picture, view, arc, px_mm);
+    likeliest(&rays, &edges).map(|edge| Outer { edge, best_seen })
+}
+
+/// The edges near a circle that may be the rim's, and the rays across them.
+struct Candidates {
+    rays: Vec<Ray>,
+    edges: Vec<Edge>,
+    /// Share of the directions that show the edge that is seen best.
+    best_seen: f64,
+}
+
+fn candidates(picture: &Picture, view: &View, arc: &Arc, px_mm: f64) -> Candidates {
     let radius_px = arc.disc.radius / px_mm;
     let furthest_px = (OUTWARD * radius_px).min(THICKEST_MM / px_mm);
     // A little more on both sides, for centres that move, and the rings' surroundings.
@@ -81,7 +100,41 @@ fn best_edge(picture: &Picture, view: &View, arc: &Arc, px_mm: f64) -> Option<Ou
     let edges = edges(&rays, radius_px, furthest_px);
     let best_seen = edges.iter().map(|edge| edge.seen).fold(0.0, f64::max);
     let edges: Vec<Edge> = edges.into_iter().filter(|edge| edge.seen >= SEEN.max(AS_SEEN * best_seen)).collect();
-    likeliest(&rays, &edges).map(|edge| Outer { edge, best_seen })
+    Candidates { rays, edges, best_seen }
+}
+
+/// Two edges about one centre of which either may be the outer edge of a rim.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RingPair {
+    /// Centre (world X, Y) and radius of the inner edge on the plane Z = 0, in mm.
+    pub inner_mm: ([f64; 2], f64),
+    /// The same of the outer edge.
+    pub outer_mm: ([f64; 2], f64),
+    /// The features by which the pair is judged, in the order of the set `ring` of weights.toml.
+    pub features: [f64; RING_FEATURES],
+}
+
+/// All pairs of edges near a round circle that are held against each other.
+pub(crate) fn pairs(picture: &Picture, view: &View, arc: &Arc, factor: usize) -> Vec<RingPair> {
+    let px_mm = px_mm(arc, factor);
+    let round = Arc { oval: [0.0; 2], ..arc.clone() };
+    let Candidates { rays, mut edges, .. } = candidates(picture, view, &round, px_mm);
+    edges.sort_by(|a, b| a.moved.z.total_cmp(&b.moved.z));
+    let circle = |edge: &Edge| {
+        let disc = shifted(round.clone(), edge.moved * px_mm).disc;
+        ([disc.x, disc.y], disc.radius)
+    };
+    let mut pairs = Vec::new();
+    for (at, inner) in edges.iter().enumerate() {
+        for outer in edges[at + 1..].iter().filter(|outer| outer.moved.z - inner.moved.z > NARROWEST_PX) {
+            pairs.extend(features(&rays, inner, outer).map(|features| RingPair {
+                inner_mm: circle(inner),
+                outer_mm: circle(outer),
+                features,
+            }));
+        }
+    }
+    pairs
 }
 
 /// All circles that edges lie along.

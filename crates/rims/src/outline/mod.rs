@@ -5,5 +5,6 @@ mod rays;
 mod refine;
 mod rings;
 
-pub(crate) use lip::outer_edge;
+pub use lip::RingPair;
+pub(crate) use lip::{outer_edge, pairs};
 pub(crate) use refine::{Followed, follow};

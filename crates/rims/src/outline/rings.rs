@@ -5,6 +5,7 @@
 //! inside and outside, as it is and with the brightness left free.
 
 use super::rays::Ray;
+use crate::weights::{RING_FEATURES, RING_ODDS};
 
 /// Colours are taken this far from an edge, in pixels, or this share of a narrow ring.
 const CLEAR_PX: f64 = 0.7;
@@ -13,9 +14,6 @@ const CLEAR: f64 = 0.35;
 const LEAST_PX: f64 = 1.0;
 /// Fewer directions tell nothing.
 const LEAST_DIRECTIONS: usize = 15;
-/// Logarithm of the odds that the outer of two edges is the rim's: constant, and weights of the ring's likeness ([`Likeness`])
-/// and of how well the inner and the outer edge are seen. A logistic regression on rendered tables.
-const ODDS: [f64; 5] = [-3.41, 0.85, 1.36, 1.34, 6.13];
 
 /// A circle near another one: how far its centre is moved and its radius is larger, in pixels.
 pub(super) type Moved = nalgebra::Vector3<f64>;
@@ -43,9 +41,15 @@ pub(super) fn at_px(ray: &Ray, moved: &Moved) -> f64 {
 /// Logarithm of the odds that the outer one of two edges is the rim's outer edge rather than the inner one; none where the
 /// picture does not tell.
 pub(super) fn odds(rays: &[Ray], inner: &Edge, outer: &Edge) -> Option<f64> {
+    let features = features(rays, inner, outer)?;
+    Some(RING_ODDS.iter().zip(features).map(|(weight, feature)| weight * feature).sum())
+}
+
+/// The features of a pair of edges, by which [`odds`] are told: one, the ring's likeness in colour and in hue, and the shares of the
+/// directions that show the inner and the outer edge; none where the picture does not tell.
+pub(super) fn features(rays: &[Ray], inner: &Edge, outer: &Edge) -> Option<[f64; RING_FEATURES]> {
     let Likeness { colour, hue } = likeness(rays, &inner.moved, &outer.moved)?;
-    let features = [1.0, colour, hue, inner.seen, outer.seen];
-    Some(ODDS.iter().zip(features).map(|(weight, feature)| weight * feature).sum())
+    Some([1.0, colour, hue, inner.seen, outer.seen])
 }
 
 fn likeness(rays: &[Ray], inner: &Moved, outer: &Moved) -> Option<Likeness> {
