@@ -3,4 +3,4 @@
 
 mod documents;
 mod layers;
-mod pipeline_layers;
+mod module_layers;

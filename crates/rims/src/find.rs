@@ -57,7 +57,7 @@ pub fn find_rims(picture: &Picture, view: &View) -> Result<Vec<Rim>, RimError> {
 /// [`RimError`] when the picture is not of the camera's size, or not all there.
 pub fn find_rims_of(picture: &Picture, view: &View, shapes: &[RimShape]) -> Result<Vec<Rim>, RimError> {
     check(picture, view)?;
-    let scaled = Scaled::of(picture, view.camera().focal_px()[0]);
+    let scaled = Scaled::from_picture(picture, view.camera().focal_px()[0]);
     let ground = ground_edges(view, &scaled);
     let mut rims = Vec::new();
     if shapes.contains(&RimShape::Circle) {
@@ -80,7 +80,7 @@ pub fn find_rims_of(picture: &Picture, view: &View, shapes: &[RimShape]) -> Resu
 /// [`RimError`] when the picture is not of the camera's size, or not all there.
 pub fn ring_pairs(picture: &Picture, view: &View) -> Result<Vec<RingPair>, RimError> {
     check(picture, view)?;
-    let scaled = Scaled::of(picture, view.camera().focal_px()[0]);
+    let scaled = Scaled::from_picture(picture, view.camera().focal_px()[0]);
     let ground = ground_edges(view, &scaled);
     let (buckets, pieces) = (Buckets::new(&ground.edges), Buckets::new(&ground.pieces));
     let found = circles::rims(view, &buckets, &pieces);

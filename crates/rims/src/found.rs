@@ -1,4 +1,4 @@
-//! What is known of a rim that was found, besides its points; it goes with them wherever they go.
+//! The facts about a rim that was found, besides its points; they go with the points wherever those go.
 
 use model::{Container, Kind, Shape};
 use serde::{Deserialize, Serialize};
@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 use crate::rim::Rim;
 use crate::rim_height::{RimHeight, as_judged};
 
-/// What finding a rim told of it. A file of marks keeps it beside the points, so that a rim measures the same when it is read
+/// The facts about a rim that was found. A file of marks keeps them beside the points, so that a rim measures the same when it is read
 /// from there.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Found {
-    /// What it looks like.
+    /// The kind that it looks like.
     pub kind: Kind,
     /// Its outline. Files say it of rectangles only.
     #[serde(default = "circle", skip_serializing_if = "is_circle")]
@@ -36,7 +36,7 @@ fn is_circle(shape: &Shape) -> bool {
 }
 
 impl Rim {
-    /// What is known of it besides its points, as for its only picture.
+    /// Returns the facts about it besides its points, as for its only picture.
     #[must_use]
     pub fn found(&self) -> Found {
         let Self { kind, confidence, perimeter_px, .. } = *self;
@@ -53,7 +53,7 @@ impl Found {
         Container { kind: self.kind, shape: self.shape, rim_height_mm: None, wall: None }
     }
 
-    /// What is wrong with its numbers, if anything: they may come from a file that somebody edited.
+    /// Returns the fault of its numbers, if they have one: they may come from a file that somebody edited.
     #[must_use]
     pub fn fault(&self) -> Option<&'static str> {
         let not_negative = |number: f64| number.is_finite() && number >= 0.0;

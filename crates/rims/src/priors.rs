@@ -1,4 +1,4 @@
-//! What plates, bowls and cups are like before a picture is looked at: their heights, feet and floors. The one source for round
+//! Priors of plates, bowls and cups, before a picture is looked at: their heights, feet and floors. The one source for round
 //! and for rectangular ones.
 //!
 //! All numbers are estimates of our own; none is taken from a survey. Ratios have no unit; lengths are in mm.

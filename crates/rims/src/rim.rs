@@ -11,17 +11,17 @@ use crate::rim_height::RimHeight;
 pub struct Rim {
     /// From 0 to 1: how sure it is that this is the rim of a container.
     pub confidence: f64,
-    /// What it looks like: plates are flat and large.
+    /// The kind that it looks like: plates are flat and large.
     pub kind: Kind,
     /// How sure that is: natural logarithm of the odds of a plate against a bowl.
     pub plate_log_odds: f64,
-    /// Where the centre of the rim appears.
+    /// The place of the rim's centre in the picture.
     pub center_px: Point2<f64>,
     /// Points along it, in order, where the picture shows it; of a rectangle its four corners.
     pub points_px: Vec<Point2<f64>>,
     /// Length of the rim as it appears.
     pub perimeter_px: f64,
-    /// What speaks for it.
+    /// The evidence for it.
     pub evidence: Evidence,
     /// Its height if it is a bowl's.
     pub height: RimHeight,
@@ -30,7 +30,7 @@ pub struct Rim {
     /// Centre (world X, Y) and radius of the circle that it appears as on the plane Z = 0, in mm; of a rectangle a quarter of
     /// the sum of both sides.
     pub on_table_mm: ([f64; 2], f64),
-    /// What speaks for it besides, if it is a rectangle; none of a round rim.
+    /// The evidence for a rectangle; none for a round rim.
     pub square: Option<SquareEvidence>,
 }
 

@@ -10,11 +10,11 @@ pub struct RimHeight {
     pub mm: f64,
     /// Its standard uncertainty.
     pub sigma_mm: f64,
-    /// Where it comes from.
+    /// The source of it.
     pub source: HeightSource,
 }
 
-/// Where the height of a rim comes from.
+/// The source of a rim's height.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum HeightSource {
@@ -37,7 +37,7 @@ pub fn as_judged(plate: RimHeight, bowl: RimHeight, plate_log_odds: f64) -> (Rim
 }
 
 impl RimHeight {
-    /// The same height if another one is true with this probability: only less sure.
+    /// Returns this height with a larger uncertainty, for another one that is true with this probability.
     fn unless(self, other: &Self, probability: f64) -> Self {
         let apart = other.sigma_mm.hypot(other.mm - self.mm);
         let variance = (1.0 - probability) * self.sigma_mm.powi(2) + probability * apart.powi(2);

@@ -1,4 +1,4 @@
-//! Which rims are looked for.
+//! The shapes of rims that are looked for.
 
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;

@@ -5,7 +5,12 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
-use crate::evidence::{FEATURES, SQUARE_FEATURES};
+/// The number of features of the confidence of a round rim.
+pub const FEATURES: usize = 10;
+/// The number of features of the confidence of a rectangle.
+pub const SQUARE_FEATURES: usize = 15;
+/// The number of features of a pair of edges.
+pub const RING_FEATURES: usize = 5;
 
 /// The features of the confidence of a round rim, in the order of [`Evidence::features`](crate::Evidence::features).
 pub(crate) const ROUND: [&str; FEATURES] =
@@ -30,14 +35,12 @@ pub(crate) const SQUARE: [&str; SQUARE_FEATURES] = [
 ];
 /// The features of a pair of edges, in the order of [`RingPair::features`](crate::RingPair).
 pub(crate) const RING: [&str; RING_FEATURES] = ["constant", "colour", "hue", "inner_seen", "outer_seen"];
-/// The number of features of a pair of edges.
-pub const RING_FEATURES: usize = 5;
 
 /// A set of fitted numbers, and where they are from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FittedSet {
-    /// What the numbers say.
+    /// The meaning of the numbers.
     pub about: String,
     /// Seeds of the rendered tables that they were fitted on.
     pub seeds: Vec<u64>,

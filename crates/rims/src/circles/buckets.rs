@@ -47,7 +47,7 @@ impl Buckets {
             sorted[places[square] as usize] = *e;
             places[square] += 1;
         }
-        let lanes = Lanes::of(&sorted);
+        let lanes = Lanes::from_edges(&sorted);
         Self { left, near, side, columns, rows, starts, edges: sorted, lanes }
     }
 

@@ -13,7 +13,7 @@ use super::trial::{Disc, Trial};
 /// Blocks that there is room for at first.
 const ROOM: usize = 256;
 
-/// Which edges about a circle a fit may meet.
+/// The edges about a circle that a fit may meet.
 pub(super) struct Within {
     /// At most so far from the circle (mm) ...
     pub width_mm: f32,
@@ -69,7 +69,7 @@ impl Near {
     }
 
     fn circle(&self, trial: &Trial) -> Circle {
-        Circle::of(trial, self.center)
+        Circle::from_trial(trial, self.center)
     }
 
     /// Leaves out what is further than so many rings from a curve, but for what shares blocks with others. `width`: of the

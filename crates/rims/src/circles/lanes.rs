@@ -10,7 +10,7 @@ use crate::edges::GroundEdge;
 /// Edges of a block.
 pub(super) const LANES: usize = 4;
 
-/// What fits need of four edges.
+/// The values of four edges that fits need.
 #[derive(Clone, Copy)]
 pub(super) struct Block {
     pub x: f32x4,
@@ -27,7 +27,7 @@ pub(super) struct Block {
 pub(crate) struct Lanes(Vec<Block>);
 
 impl Lanes {
-    pub(super) fn of(edges: &[GroundEdge]) -> Self {
+    pub(super) fn from_edges(edges: &[GroundEdge]) -> Self {
         let block = |some: &[GroundEdge]| {
             let four = |of: fn(&GroundEdge) -> f32, none: f32| {
                 f32x4::from(std::array::from_fn(|lane| some.get(lane).map_or(none, of)))
@@ -116,7 +116,7 @@ pub(super) struct Relative {
 impl Circle {
     /// `center`: places are relative to it.
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
-    pub(super) fn of(trial: &Trial, center: [f32; 2]) -> Self {
+    pub(super) fn from_trial(trial: &Trial, center: [f32; 2]) -> Self {
         Self {
             x: f32x4::splat((trial.disc.x - f64::from(center[0])) as f32),
             y: f32x4::splat((trial.disc.y - f64::from(center[1])) as f32),
@@ -183,7 +183,7 @@ mod tests {
     /// Whatever a range begins and ends with, each of its edges has one bit, and no other one has.
     #[test]
     fn blocks_hold_the_edges_of_a_range() {
-        let lanes = Lanes::of(&edges());
+        let lanes = Lanes::from_edges(&edges());
         for start in 0..23 {
             for end in start + 1..=23 {
                 let mut found = Vec::new();
@@ -199,8 +199,8 @@ mod tests {
     fn four_edges_are_where_each_of_them_is() {
         let disc = Disc { x: 103.0, y: 298.0, radius: 57.0 };
         let trial = Trial { disc, oval: [1.5, -0.8], most_oval: 0.1 };
-        let (edges, circle) = (edges(), Circle::of(&trial, [0.0; 2]));
-        let lanes = Lanes::of(&edges);
+        let (edges, circle) = (edges(), Circle::from_trial(&trial, [0.0; 2]));
+        let lanes = Lanes::from_edges(&edges);
         for (first, block, bits) in lanes.blocks(0..edges.len()) {
             let found = circle.relative(block);
             each(bits, |lane| {

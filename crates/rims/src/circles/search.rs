@@ -23,9 +23,9 @@ const SAME: f64 = 0.02;
 /// Circles less likely than this are not followed up, and not told in the end.
 const WORTH_A_TRY: f64 = 0.05;
 const LEAST_CONFIDENCE: f64 = 0.2;
-/// As many of the circles voted for, those with most of their bins covered after rough steps, are fitted finely at first.
+/// The number of the circles voted for, those with most of their bins covered after rough steps, that are fitted finely at first.
 const FINE: usize = 64;
-/// As many of the likeliest circles of a container are led outward.
+/// The number of the likeliest circles of a container that are led outward.
 const LED_OUTWARD: usize = 6;
 /// Circles nearer to each other than this share of the radius may end at the same rim.
 const NEAR: f64 = 0.3;

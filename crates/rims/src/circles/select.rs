@@ -1,4 +1,4 @@
-//! Which of the circles found are rims: one per container.
+//! The choice of the circles that are rims: one per container.
 
 use super::trial::Arc;
 use crate::evidence::Evidence;
@@ -8,7 +8,7 @@ use crate::evidence::Evidence;
 pub(crate) struct Scored {
     pub arc: Arc,
     pub evidence: Evidence,
-    /// What speaks for the likeliest edge of the same container, which may be another one: that says how sure it is.
+    /// The evidence for the likeliest edge of the same container, which may be another one: the confidence follows from that one.
     pub best: Evidence,
     pub confidence: f64,
 }

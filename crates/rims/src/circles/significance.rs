@@ -1,4 +1,4 @@
-//! What speaks for a circle: how much of it is seen, and how unlikely that is by chance.
+//! The evidence for a circle: how much of it is seen, and how unlikely that is by chance.
 
 use model::View;
 use nalgebra::Point3;
@@ -15,7 +15,7 @@ const INDEPENDENT_PX: f64 = 6.0;
 /// A circle nearer to the point under the camera than this multiple of the camera's height is seen from steeply above.
 const STEEP: f64 = 0.3;
 
-/// What speaks for a circle, before it is followed through the full picture.
+/// The evidence for a circle, before it is followed through the full picture.
 #[expect(clippy::cast_precision_loss, reason = "bins")]
 pub(super) fn evidence(view: &View, arc: &Arc) -> Evidence {
     let visible: Vec<bool> = (0..BINS).map(|bin| is_visible(view, arc, bin)).collect();
@@ -52,7 +52,7 @@ pub(super) fn evidence(view: &View, arc: &Arc) -> Evidence {
 #[expect(clippy::cast_precision_loss, reason = "bins")]
 fn is_visible(view: &View, arc: &Arc, bin: usize) -> bool {
     let angle = (bin as f64 + 0.5) / BINS as f64 * std::f64::consts::TAU;
-    let [x, y] = arc.at(angle);
+    let [x, y] = arc.place_at(angle);
     let [width, height] = view.camera().size_px().map(f64::from);
     view.pixel_of(Point3::new(x, y, 0.0)).is_ok_and(|p| {
         (0.005 * width..0.995 * width).contains(&p.x) && (0.005 * width..height - 0.005 * width).contains(&p.y)

@@ -1,4 +1,4 @@
-//! What supports a circle: the edges along it, and what is around.
+//! The support of a circle: the edges along it, and those around it.
 
 use wide::{CmpLe, CmpLt, f32x4};
 
@@ -24,8 +24,8 @@ struct Support {
 
 impl Support {
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
-    fn of(buckets: &Buckets, trial: &Trial) -> Self {
-        let (circle, edges) = (Circle::of(trial, [0.0; 2]), buckets.edges());
+    fn from_edges(buckets: &Buckets, trial: &Trial) -> Self {
+        let (circle, edges) = (Circle::from_trial(trial, [0.0; 2]), buckets.edges());
         let around = AROUND * trial.disc.radius as f32;
         let mut found = Self {
             bright_outside: [0.0; BINS],
@@ -78,7 +78,7 @@ fn mask(bits: i32) -> f32x4 {
 /// The edges along a circle.
 #[expect(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "bins")]
 pub(super) fn support(buckets: &Buckets, trial: &Trial) -> Arc {
-    let found = Support::of(buckets, trial);
+    let found = Support::from_edges(buckets, trial);
     let disc = trial.disc;
     let least = bin_length(disc.radius as f32);
     let bins: [i8; BINS] = std::array::from_fn(|bin| {

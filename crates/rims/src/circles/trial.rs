@@ -24,7 +24,7 @@ pub(crate) struct Disc {
 #[derive(Debug, Clone)]
 pub(crate) struct Arc {
     pub disc: Disc,
-    /// How far it is from round: radius = R + a cos 2t + b sin 2t, in mm.
+    /// The departure from a circle: radius = R + a cos 2t + b sin 2t, in mm.
     pub oval: [f64; 2],
     /// Per bin, from angle 0 on: 1 where brighter lies outside, -1 where inside, 0 where no edge is.
     pub bins: [i8; BINS],
@@ -42,14 +42,14 @@ pub(crate) struct Arc {
 }
 
 impl Arc {
-    /// The same about the same centre, larger.
+    /// Returns the arc about the same centre, larger by this ratio.
     pub(crate) fn scaled(&self, ratio: f64) -> Self {
         let disc = Disc { radius: self.disc.radius * ratio, ..self.disc };
         Self { disc, oval: self.oval.map(|o| o * ratio), ..self.clone() }
     }
 
     /// The place of the curve at an angle about its centre (radians from X), in mm on the plane Z = 0.
-    pub(crate) fn at(&self, angle: f64) -> [f64; 2] {
+    pub(crate) fn place_at(&self, angle: f64) -> [f64; 2] {
         let radius = self.disc.radius + self.oval[0] * (2.0 * angle).cos() + self.oval[1] * (2.0 * angle).sin();
         [self.disc.x + radius * angle.cos(), self.disc.y + radius * angle.sin()]
     }

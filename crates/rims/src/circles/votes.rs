@@ -34,11 +34,11 @@ const MOST_CELLS: usize = 1 << 21;
 /// Likely circles with radii between the limits (mm on the plane Z = 0).
 pub(super) fn likely_discs(edges: &[GroundEdge], [smallest, largest]: [f64; 2]) -> Likely {
     let mut found = Vec::new();
-    let voters = Voters::of(edges);
+    let voters = Voters::from_edges(edges);
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let (mut radius, largest) = (smallest as f32, largest as f32);
     while radius <= largest {
-        if let Some(layer) = Layer::of(&voters, radius) {
+        if let Some(layer) = Layer::from_votes(&voters, radius) {
             found.extend(layer.peaks());
         }
         radius *= LAYER_RATIO;
@@ -86,7 +86,7 @@ struct Voters {
 
 impl Voters {
     /// In blocks; what fills the last one up never votes.
-    fn of(edges: &[GroundEdge]) -> Vec<Self> {
+    fn from_edges(edges: &[GroundEdge]) -> Vec<Self> {
         let nobody = [0.0; LANES];
         let empty =
             Self { x: nobody, y: nobody, nx: nobody, ny: nobody, length: nobody, worst_scale: [f32::INFINITY; LANES] };
@@ -109,7 +109,7 @@ impl Voters {
 
 impl Layer {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells of a layer")]
-    fn of(voters: &[Voters], radius: f32) -> Option<Self> {
+    fn from_votes(voters: &[Voters], radius: f32) -> Option<Self> {
         let (low, high) = bounds(voters, radius)?;
         let cell = CELL * radius;
         let cells = |axis: usize| ((high[axis] - low[axis] + 2.0 * radius) / cell) as usize + 5;

@@ -34,13 +34,13 @@ const RAYLEIGH_QUARTILE: f32 = 0.758_5;
 const ROUNDING: f32 = 0.35;
 
 impl Edges {
-    pub(super) fn of(scaled: &Scaled) -> Self {
+    pub(super) fn from_scaled(scaled: &Scaled) -> Self {
         let (width, height) = (scaled.width, scaled.height);
         let mut found = Self { width, height, edges: Vec::new(), at: vec![NONE; width * height] };
         if width < 8 || height < 8 {
             return found;
         }
-        let gradient = Gradient::of(scaled);
+        let gradient = Gradient::from_scaled(scaled);
         let least = OUT_OF_NOISE * gradient.noise().max(ROUNDING);
         for y in 3..height - 3 {
             for x in 3..width - 3 {
@@ -67,7 +67,7 @@ struct Gradient {
 }
 
 impl Gradient {
-    fn of(scaled: &Scaled) -> Self {
+    fn from_scaled(scaled: &Scaled) -> Self {
         let (width, height) = (scaled.width, scaled.height);
         let empty = || vec![0.0_f32; width * height];
         let mut found = Self { x: empty(), y: empty(), size: empty() };

@@ -46,7 +46,7 @@ struct Rays {
 
 impl Rays {
     #[expect(clippy::cast_precision_loss, reason = "pixels of a picture")]
-    fn of(view: &View, scaled: &Scaled) -> Self {
+    fn through(view: &View, scaled: &Scaled) -> Self {
         let (columns, rows) = (scaled.width / GRID_STEP + 2, scaled.height / GRID_STEP + 2);
         let world_from_camera = view.pose().world_from_camera();
         let node = |i: usize| scaled.in_full((i * GRID_STEP) as f64);
@@ -92,12 +92,12 @@ struct Shown {
 /// Neighbours on a chain that make one piece.
 const PIECE: usize = 2;
 
-/// What lies on the plane Z = 0.
+/// The edges of a picture, carried to the plane Z = 0.
 #[derive(Default)]
 pub(crate) struct Ground {
     /// Every edge of the chains.
     pub edges: Vec<GroundEdge>,
-    /// The same, a few neighbours to a piece: enough to see where circles may be.
+    /// The same edges, a few neighbours to a piece: enough to see where circles may be.
     pub pieces: Vec<GroundEdge>,
 }
 
@@ -122,8 +122,8 @@ fn piece(edges: &[GroundEdge]) -> GroundEdge {
 
 /// The chains of a picture's edges on the plane Z = 0.
 pub(crate) fn ground_edges(view: &View, scaled: &Scaled) -> Ground {
-    let found = Edges::of(scaled);
-    let rays = Rays::of(view, scaled);
+    let found = Edges::from_scaled(scaled);
+    let rays = Rays::through(view, scaled);
     let mut ground = Ground::default();
     let mut places: Vec<(Edge, Option<Shown>)> = Vec::new();
     for chain in chains(&found) {

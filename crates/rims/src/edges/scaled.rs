@@ -19,7 +19,7 @@ pub(crate) struct Scaled {
 
 impl Scaled {
     /// `focal_px` is the camera's, in pixels of the picture.
-    pub(crate) fn of(picture: &Picture, focal_px: f64) -> Self {
+    pub(crate) fn from_picture(picture: &Picture, focal_px: f64) -> Self {
         let factor = factor(picture.width_px.max(picture.height_px), focal_px);
         let full_width = picture.width_px as usize;
         let (width, height) = (full_width / factor, picture.height_px as usize / factor);
@@ -73,7 +73,7 @@ fn add_rows(sums: &mut [u16], rows: &[u8]) {
     }
 }
 
-/// As many pixels of the picture, each way, make one of the search.
+/// The number of pixels of the picture, each way, that make one pixel of the search.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
 fn factor(longer_px: u32, focal_px: f64) -> usize {
     let by_side = (longer_px + SEARCH_SIDE_PX / 2) / SEARCH_SIDE_PX;

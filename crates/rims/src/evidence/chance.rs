@@ -1,4 +1,4 @@
-//! How likely chance is to do as well.
+//! The probability that chance does as well.
 
 /// Upper bound of log10 P(at least `share` of `trials` succeed by chance `p` each), by Hoeffding (1963, Theorem 1).
 pub(crate) fn binomial_tail_log10(trials: f64, share: f64, p: f64) -> f64 {

@@ -1,9 +1,6 @@
-//! What speaks for a circle, and how sure it is by that that it is a rim.
+//! The evidence for a circle, and the confidence that it is the rim of a container.
 
-use crate::weights::ROUND_CONFIDENCE;
-
-/// The number of features that the confidence is worked out from.
-pub const FEATURES: usize = 10;
+use crate::weights::{FEATURES, ROUND_CONFIDENCE};
 
 /// The evidence for a circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,7 +9,7 @@ pub struct Evidence {
     pub visible: f64,
     /// Share of what lies in the picture that has an edge along it.
     pub coverage: f64,
-    /// The same for the half that lies further from the wearer, which a container's own wall never hides: a foot has none.
+    /// The same share of the half that lies further from the wearer, which a container's own wall never hides: a foot has none.
     pub far: f64,
     /// Share of the whole rim that its longest unbroken arc covers: what hides a rim leaves long arcs, chance short ones.
     pub longest: f64,

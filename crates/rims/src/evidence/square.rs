@@ -1,17 +1,14 @@
-//! What speaks for a rectangle, and how sure it is by that that it is the rim of a plate.
+//! The evidence for a rectangle, and the confidence that it is the rim of a plate.
 
 use super::round::Evidence;
-use crate::weights::SQUARE_CONFIDENCE;
+use crate::weights::{SQUARE_CONFIDENCE, SQUARE_FEATURES};
 
-/// The number of features that the confidence is worked out from.
-pub const SQUARE_FEATURES: usize = 15;
-
-/// What speaks for a rectangle.
+/// The evidence for a rectangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SquareEvidence {
     /// Share of all sides that has an edge along it.
     pub coverage: f64,
-    /// The same of the side that shows least.
+    /// The share of the side that shows least.
     pub least_side: f64,
     /// Common logarithm of the expected number of rectangles as good as this one in a picture of chance edges.
     pub false_alarms_log10: f64,
@@ -25,11 +22,11 @@ pub struct SquareEvidence {
     pub corners: f64,
     /// Share of the sides that have a line within and below them, as a well is.
     pub below: f64,
-    /// The same of the side that shows least of it.
+    /// The share of the side that shows least of such a line.
     pub least_below: f64,
-    /// The same on their own level, as a printed border is.
+    /// Share of the sides that have a line within and on their own level, as a printed border is.
     pub level: f64,
-    /// The same above them, as a plate on a mat is.
+    /// Share of the sides that have a line within and above them, as a plate on a mat is.
     pub above: f64,
     /// Share of the sides that have a line, over all places within: cloth has many, and a plate few.
     pub clutter: f64,
@@ -40,14 +37,14 @@ pub struct SquareEvidence {
     pub sharp: f64,
     /// How much the colour changes from place to place just within a side, in levels: of the sides the most.
     pub rough_in: f64,
-    /// The same just out of the sides: their mean.
+    /// How much the colour changes from place to place just out of the sides, in levels: their mean.
     pub rough_out: f64,
     /// How far what lies within a side is from a shadow of what lies out of it, of the sides the least.
     pub unlike: f64,
 }
 
 impl SquareEvidence {
-    /// What it has in common with what speaks for a circle.
+    /// The part of the evidence that circles have as well.
     pub(crate) fn as_of_a_rim(&self) -> Evidence {
         Evidence {
             visible: 1.0,

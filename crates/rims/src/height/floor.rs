@@ -15,7 +15,7 @@ const PLACES: usize = 48;
 /// Scaled pixels from the rim within which edges are the rim's.
 const CLEAR_PX: f64 = 4.0;
 
-/// Where floors are looked for.
+/// The places where floors are looked for.
 pub(super) struct Floors<'a> {
     rim: &'a Arc,
     raster: &'a Raster,
@@ -35,7 +35,7 @@ impl<'a> Floors<'a> {
             let angles = [0, 1, 2, 3].map(|i| (4 * four + i) as f64 / PLACES as f64 * std::f64::consts::TAU);
             #[expect(clippy::cast_possible_truncation, reason = "a unit vector")]
             let unit = [f64::cos, f64::sin].map(|of| f32x4::from(angles.map(|angle| of(angle) as f32)));
-            (unit, angles.map(Sector::of))
+            (unit, angles.map(Sector::from_normal))
         });
         let clear_mm = (rim.disc.radius - CLEAR_PX * scale).max(0.0);
         Self { rim, raster, odds: chances.odds(SHOWS), clear_mm, camera_mm, places }
@@ -56,7 +56,7 @@ impl<'a> Floors<'a> {
         (1.0 - SHOWING + SHOWING * sum / all).ln()
     }
 
-    /// The same of one circle, of what of it the near half of the rim does not hide.
+    /// The evidence of one circle, as far as the near half of the rim does not hide it.
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     fn circle(&self, t: f64, ratio: f64) -> f64 {
         let rim = &self.rim.disc;

@@ -1,4 +1,4 @@
-//! How high above the table a rim is, from what is seen below it and in it.
+//! The height of a rim above the table, from what is seen below it and in it.
 //!
 //! All level circles of a container have one upright axis. On the plane Z = 0 one at the level z appears about the point
 //! t C, with C the centre of the rim there, and t = (c - H) / (c - z) for a camera at c and a rim at H; its radius is r t / s,
@@ -40,7 +40,8 @@ const AROUND: [f64; 2] = [1.15, 1.8];
 const AS_STRONG: f64 = 0.35;
 /// Neighbouring places are not independent: what they say counts this much.
 const INDEPENDENT: f64 = 0.3;
-/// What is seen tells a height if it speaks so much more for it than for what is common (logarithm).
+/// A foot or a floor counts as the source of a height if the logarithm of its odds is so much larger there than at heights that are
+/// common.
 const SAYS: f64 = 4.0;
 
 /// One height, foot and wall, and the logarithm of how likely they are.
@@ -97,7 +98,7 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
     let toward = center.map(|c| -c / away.max(1e-9));
     #[expect(clippy::cast_possible_truncation, reason = "levels")]
     let least = (AS_STRONG * rim.contrast) as f32;
-    let outside = Raster::of(
+    let outside = Raster::from_edges(
         buckets,
         center,
         lowest.min(FURTHEST * rim.disc.radius),
@@ -105,7 +106,7 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
         scale,
         least,
     );
-    let inside = Raster::of(buckets, center, rim.disc.radius, around(rim, toward, 0.0), scale, 0.0);
+    let inside = Raster::from_edges(buckets, center, rim.disc.radius, around(rim, toward, 0.0), scale, 0.0);
     let chances = |raster: &Raster, rings| raster.chances(&rim.disc, rings, CHANCE);
     let floors = Floors::new(rim, &inside, &chances(&inside, WITHIN), scale, camera_mm);
     let walls = Walls::new(rim, &outside, &chances(&outside, AROUND), scale, camera_mm);
@@ -126,7 +127,7 @@ fn trials(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Vec<Trial> {
     trials
 }
 
-/// What the places lie in that are looked at for any height: about the rim, where chance is counted, and discs no wider than
+/// The window that holds the places that are looked at for any height: about the rim, where chance is counted, and discs no wider than
 /// it, from its centre towards the furthest foot.
 fn around(rim: &Arc, toward: [f64; 2], furthest: f64) -> Window {
     let (from, radius) = ([rim.disc.x, rim.disc.y], rim.disc.radius);

@@ -35,7 +35,7 @@ pub(super) struct ChanceLimits {
 /// Chance of an edge that means nothing, by the direction of its normal.
 pub(super) struct Chances([f64; SECTORS as usize]);
 
-/// What places say that show an edge at a given share of them: for each direction of the normal, the logarithm of how much
+/// The odds that places give, where a given share of them shows an edge: for each direction of the normal, the logarithm of how much
 /// likelier it is than by chance that no edge is seen there, and that one is.
 pub(super) struct Odds([[f64; 2]; SECTORS as usize]);
 
@@ -54,12 +54,12 @@ pub(super) struct Sector(u8);
 
 impl Sector {
     #[expect(clippy::cast_possible_truncation, reason = "an angle, a few sectors")]
-    pub(super) fn of(normal_rad: f64) -> Self {
+    pub(super) fn from_normal(normal_rad: f64) -> Self {
         Self(sector(normal_rad as f32) as u8)
     }
 }
 
-/// Which normals edges have, by place, within a window.
+/// The normals of edges, by place, within a window.
 pub(super) struct Raster {
     left: f32,
     near: f32,
@@ -78,7 +78,14 @@ impl Raster {
     /// The edges within `reach` (mm) of a centre, as far as they lie in the window, that are at least as strong as `least`
     /// (levels per scaled pixel). `scale`: mm per scaled pixel.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]
-    pub(super) fn of(buckets: &Buckets, center: [f64; 2], reach: f64, window: Window, scale: f64, least: f32) -> Self {
+    pub(super) fn from_edges(
+        buckets: &Buckets,
+        center: [f64; 2],
+        reach: f64,
+        window: Window,
+        scale: f64,
+        least: f32,
+    ) -> Self {
         let cell = (scale / CELLS_PER_PX).max(2.0 * reach / MOST_CELLS);
         // Cells are counted from the corner of the square about the centre, whatever the window.
         let cells = |axis: usize| {
@@ -127,7 +134,7 @@ impl Raster {
         }
     }
 
-    /// What an edge with such a normal says at a place, or that there is none.
+    /// The evidence at a place, by whether it has an edge with such a normal.
     pub(super) fn says(&self, at: [f64; 2], normal: Sector, odds: &Odds) -> f64 {
         odds.0[usize::from(normal.0)][usize::from(self.sectors_at(at) >> normal.0 & 1)]
     }
@@ -186,7 +193,7 @@ impl Raster {
     }
 }
 
-/// How many cells there are up to a place.
+/// The number of cells up to a place.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells")]
 fn cells_up_to(place: f32) -> usize {
     if place >= 0.0 { place as i32 as usize + 1 } else { 0 }
@@ -251,7 +258,7 @@ mod tests {
         let odds = Chances(std::array::from_fn(|sector| 0.1 + 0.03 * sector as f64)).odds(0.7);
         for step in 0..200_u8 {
             let places = [0.0, 31.0, 62.0, 93.0].map(|more: f32| [f32::from(step) - 60.0 + more, 60.0 - more * 0.7]);
-            let normals = [0, 1, 2, 3].map(|i| Sector::of(f64::from(step) * 0.1 + f64::from(i)));
+            let normals = [0, 1, 2, 3].map(|i| Sector::from_normal(f64::from(step) * 0.1 + f64::from(i)));
             let four = [0, 1].map(|axis| f32x4::from(places.map(|place| place[axis])));
             let counts = four[0].cmp_lt(f32x4::splat(40.0));
             let one = |lane: usize| raster.says(places[lane].map(f64::from), normals[lane], &odds);

@@ -25,11 +25,11 @@ pub(super) struct Wall {
     pub round: f64,
 }
 
-/// Where the walls of a rim are looked for.
+/// The places where the walls of a rim are looked for.
 pub(super) struct Walls<'a> {
     rim: &'a Arc,
     raster: &'a Raster,
-    /// What places of the foot say, and what those of the wall do.
+    /// The odds that places of the foot and of the wall give.
     foot: Odds,
     wall: Odds,
     camera_mm: f64,
@@ -87,7 +87,7 @@ impl<'a> Walls<'a> {
         let mut directions = Vec::new();
         let mut angle = 0.0_f64;
         while angle < std::f64::consts::PI {
-            let normals = [-1.0, 1.0].map(|side| Sector::of(heading + side * angle));
+            let normals = [-1.0, 1.0].map(|side| Sector::from_normal(heading + side * angle));
             directions.push(Direction { cos: angle.cos(), sin: angle.sin(), normals });
             angle += turn;
         }
@@ -105,11 +105,11 @@ impl<'a> Walls<'a> {
         }
     }
 
-    /// What a wall's edges say: logarithm of how much likelier they are with it than without.
+    /// The evidence of a wall's edges: the logarithm of how much likelier they are with the wall than without it.
     pub(super) fn seen(&self, wall: &Wall) -> f64 {
         let levels = wall.levels(self.rim, self.camera_mm);
         let mut sum = 0.0;
-        let mut outer = Outermost::of(&levels);
+        let mut outer = Outermost::among(&levels);
         let mut last: Option<(usize, Place)> = None;
         for (i, direction) in self.directions.iter().enumerate() {
             let outer = outer.towards(direction.cos);
@@ -132,7 +132,7 @@ impl<'a> Walls<'a> {
         sum
     }
 
-    /// The same of the line around two levels.
+    /// The evidence of the line around two levels.
     fn between(&self, from: Place, to: Place, direction: &Direction) -> f64 {
         let (along, across) = (to.along - from.along, to.across - from.across);
         let length = along.hypot(across);
@@ -146,7 +146,7 @@ impl<'a> Walls<'a> {
         sum
     }
 
-    /// The same of one place, on both sides or one.
+    /// The evidence of one place, on both sides or one.
     fn look(&self, place: Place, direction: &Direction, sides: std::ops::Range<usize>, odds: &Odds) -> f64 {
         let Place { along, across } = place;
         // On the rim itself, edges are the rim's.
@@ -173,7 +173,7 @@ struct Outermost<'a> {
 }
 
 impl<'a> Outermost<'a> {
-    fn of(levels: &'a [Level; LEVELS]) -> Self {
+    fn among(levels: &'a [Level; LEVELS]) -> Self {
         let reach = |level: usize| levels[level].moved + levels[level].radius;
         let level = (1..LEVELS).fold(0, |most, level| if reach(level) > reach(most) { level } else { most });
         Self { levels, level, next: next(levels, level) }
@@ -216,7 +216,7 @@ mod tests {
                     let t = (450.0 - height) / (450.0 - share * height);
                     Level { moved: away * (1.0 - t), radius: (foot + (1.0 - foot) * share.sqrt()) * 80.0 * t }
                 });
-                let mut outer = Outermost::of(&levels);
+                let mut outer = Outermost::among(&levels);
                 for degree in 0..180 {
                     let cos = f64::from(degree).to_radians().cos();
                     let reach = |level: &Level| level.moved * cos + level.radius;

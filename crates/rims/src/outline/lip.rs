@@ -56,7 +56,7 @@ struct Outer {
     best_seen: f64,
 }
 
-/// The same circle moved to the outer edge of the rim; as it was where none is clear.
+/// Returns the circle moved to the outer edge of the rim, or as it was where no outer edge is clear.
 pub(crate) fn outer_edge(picture: &Picture, view: &View, arc: Arc, factor: usize) -> Arc {
     let px_mm = px_mm(&arc, factor);
     let round = Arc { oval: [0.0; 2], ..arc.clone() };
@@ -108,7 +108,7 @@ fn candidates(picture: &Picture, view: &View, arc: &Arc, px_mm: f64) -> Candidat
 pub struct RingPair {
     /// Centre (world X, Y) and radius of the inner edge on the plane Z = 0, in mm.
     pub inner_mm: ([f64; 2], f64),
-    /// The same of the outer edge.
+    /// Centre and radius of the outer edge, likewise.
     pub outer_mm: ([f64; 2], f64),
     /// The features by which the pair is judged, in the order of the set `ring` of weights.toml.
     pub features: [f64; RING_FEATURES],

@@ -18,7 +18,7 @@ const LEAST_SHARE: f64 = 0.15;
 /// The far edge of the wearer's third: cosine against the direction away from the wearer.
 const NEAR_THIRD: f64 = -0.5;
 
-/// What is looked at: how far inward and outward of the circle, in pixels.
+/// The stretch that is looked at: how far inward and outward of the circle, in pixels.
 #[derive(Clone, Copy)]
 pub(super) struct Span {
     pub inward_px: f64,
@@ -27,7 +27,7 @@ pub(super) struct Span {
     pub px_mm: f64,
 }
 
-/// What is seen in one direction.
+/// The edges and colours that are seen in one direction.
 pub(super) struct Ray {
     /// Cosine and sine of the direction.
     pub unit: [f64; 2],
@@ -90,7 +90,7 @@ pub(super) fn rays(picture: &Picture, view: &View, arc: &Arc, span: Span) -> Vec
 fn colours(picture: &Picture, view: &View, arc: &Arc, angle: f64, span: Span) -> Vec<Option<[f64; 3]>> {
     let samples = ((span.inward_px + span.outward_px) * STEPS_PER_PX) as usize + 1;
     let radius = {
-        let [x, y] = arc.at(angle);
+        let [x, y] = arc.place_at(angle);
         (x - arc.disc.x).hypot(y - arc.disc.y)
     };
     let apart_mm = (1.5 * span.px_mm).min(0.015 * radius);

@@ -77,7 +77,7 @@ fn middle(values: impl Iterator<Item = f64>) -> Option<f64> {
 /// The strongest edge across the rim at one angle.
 fn across(picture: &Picture, view: &View, arc: &Arc, angle: f64, factor: f64) -> Option<Found> {
     let pixel = |angle: f64| {
-        let [x, y] = arc.at(angle);
+        let [x, y] = arc.place_at(angle);
         view.pixel_of(Point3::new(x, y, 0.0)).ok()
     };
     let here = pixel(angle)?;

@@ -66,7 +66,7 @@ fn likeness(rays: &[Ray], inner: &Moved, outer: &Moved) -> Option<Likeness> {
     Some(Likeness { colour, hue })
 }
 
-/// The same in one direction.
+/// The likeness in one direction: in colour and in hue.
 fn compared(ray: &Ray, inner_px: f64, outer_px: f64) -> Option<[f64; 2]> {
     let width_px = outer_px - inner_px;
     if width_px < 2.0 * CLEAR_PX * (1.0 - CLEAR) {

@@ -13,7 +13,7 @@ const BEYOND_PX: f64 = 3.0;
 /// ... and no less than this (mm), or this share of its length: corners are rounded, or hidden.
 const SHORT_MM: f64 = 40.0;
 const SHORT_SHARE: f64 = 0.6;
-/// As many corners, those of the longest pieces, are paired.
+/// The number of corners, those of the longest pieces, that are paired.
 const MOST_CORNERS: usize = 400;
 /// Sides that are looked for on the plane Z = 0, in mm, and the longest in proportion to the other.
 pub(super) const SIDES_MM: [f64; 2] = [60.0, 450.0];
@@ -22,7 +22,7 @@ pub(super) const LONGEST: f64 = 2.8;
 const PARALLEL: f64 = 0.12;
 /// ... and pieces are of one side if they are as near to each other (mm).
 const ONE_SIDE_MM: f64 = 4.0;
-/// As many places are tried for each of the two sides across, and as many rectangles of one corner.
+/// The number of places that are tried for each of the two sides across, and of rectangles of one corner.
 const MOST_ACROSS: usize = 8;
 const MOST_OF_CORNER: usize = 6;
 /// A side that goes on beyond its corner is a table's line: looked for so far beyond, in mm.
@@ -30,7 +30,7 @@ const BEYOND_CORNER_MM: [f64; 2] = [6.0, 32.0];
 /// Of each side, pieces cover this share, and of all four this mean.
 const LEAST_OF_SIDE: f64 = 0.15;
 const LEAST_OF_ALL: f64 = 0.4;
-/// As many rectangles are looked at closely.
+/// The number of rectangles that are looked at closely.
 const MOST_QUADS: usize = 160;
 /// Rectangles are the same if their corners are nearer than this share of half the way across.
 const SAME: f64 = 0.03;

@@ -1,4 +1,4 @@
-//! What speaks for a rectangle of the reduced picture.
+//! The evidence for a rectangle in the reduced picture.
 
 use super::levels::Levels;
 use super::support::Support;
@@ -16,7 +16,7 @@ const COMMON_ROUGHNESS: f64 = 6.0;
 /// The distance from a shadow that is common, likewise.
 const COMMON_UNLIKENESS: f64 = 0.1;
 
-/// What speaks for a rectangle, before it is followed through the full picture.
+/// The evidence for a rectangle, before it is followed through the full picture.
 pub(super) fn evidence(support: &Support, levels: &Levels) -> SquareEvidence {
     let coverage = support.coverage.iter().sum::<f64>() / 4.0;
     let trials = support.perimeter_px / INDEPENDENT_PX;

@@ -42,7 +42,7 @@ struct Found {
     beside: [[f64; 3]; 2],
 }
 
-/// What a picture shows along a side.
+/// The looks of a side in the picture.
 #[derive(Debug, Clone, Copy)]
 struct Along {
     sharp: f64,
@@ -59,7 +59,7 @@ pub(super) struct Followed {
     pub sharp: f64,
     /// How much the colour changes from place to place just within a side, in levels: of the sides the most.
     pub rough_in: f64,
-    /// The same just out of a side: their mean.
+    /// How much the colour changes from place to place just out of a side, in levels: their mean.
     pub rough_out: f64,
     /// How far what lies within a side is from a shadow of what lies out of it, of the sides the least: the difference between
     /// the colours' ratios, and how much brighter it is (logarithms).

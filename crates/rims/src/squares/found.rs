@@ -31,7 +31,7 @@ const MOST_FALSE_ALARMS_LOG10: f64 = -2.0;
 /// Lines within that are below the rim are seen along so much more of the sides than lines on its level would be: else they are
 /// a printed border.
 const LEAST_RAISED: f64 = 0.05;
-/// As many, the likeliest, are followed through the full picture.
+/// The number of rectangles, the likeliest ones, that are followed through the full picture.
 const MOST_FOLLOWED: usize = 24;
 /// Fits whose corners are nearer to each other than this share of half the way across are one.
 const SAME: f64 = 0.012;
@@ -81,13 +81,13 @@ fn scored(edges: &[GroundEdge], quad: &Quad) -> Option<Scored> {
     if !is_size || quad.skew() > MOST_SKEW {
         return None;
     }
-    let support = Support::of(&quad, &near);
+    let support = Support::from_edges(&quad, &near);
     let mean = support.coverage.iter().sum::<f64>() / 4.0;
     let is_seen = mean >= LEAST_COVERAGE && support.coverage.iter().all(|side| *side >= LEAST_SIDE);
     if !is_seen || support.beyond > MOST_BEYOND {
         return None;
     }
-    let evidence = evidence(&support, &Levels::of(&quad, &near));
+    let evidence = evidence(&support, &Levels::from_edges(&quad, &near));
     let is_raised = evidence.below >= evidence.level.max(evidence.above) + LEAST_RAISED;
     (is_raised && evidence.false_alarms_log10 < MOST_FALSE_ALARMS_LOG10).then_some(Scored {
         quad,
@@ -144,7 +144,7 @@ impl Square {
         Quad { corners: self.corners_mm }
     }
 
-    /// As a rim among others.
+    /// Returns it as a rim among others.
     pub(crate) fn rim(self, view: &View) -> Rim {
         let quad = self.quad();
         let (center, [a, b]) = (quad.center(), quad.extent());
@@ -165,7 +165,8 @@ impl Square {
     }
 }
 
-/// What has a well below a straight rim is a plate or a tray, whatever it looks like in other images; boxes are not told from them.
+/// The odds of a plate, as a logarithm: a thing with a well below a straight rim is a plate or a tray, whatever it looks like in
+/// other images. Boxes cannot be distinguished from them.
 const PLATE_LOG_ODDS: f64 = 10.0;
 /// The height that is common, for sides as they appear on Z = 0: H = q D and D = d (1 - H / c).
 fn common_height(common: Normal, [a, b]: [f64; 2], camera_mm: f64) -> RimHeight {

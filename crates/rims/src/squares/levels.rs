@@ -1,4 +1,4 @@
-//! What lies within a rectangle at other levels than its own: its well below it, a plate that stands on it.
+//! Lines within a rectangle at other levels than its own: its well below it, a plate that stands on it.
 //!
 //! A line at the level z along a side at the level H appears on the plane Z = 0 as far from the side as it is, and besides by
 //! (1 - s) d, with d the signed distance of the side from the point under the camera and s = (c - H) / (c - z) for a camera at
@@ -24,12 +24,12 @@ const FLANGES_ALIKE: f64 = 0.2;
 const FLANGES_ALIKE_MM: f64 = 2.0;
 /// Nearer to a side than this (mm), a line is the side itself or its other edge.
 const OWN_MM: f64 = 3.0;
-/// What is seen at other levels, each from 0 to 1: the mean share of the sides that have a line there.
+/// The lines that are seen at other levels, each from 0 to 1: the mean share of the sides that have a line there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Levels {
     /// Within the rectangle and below it, as a well is.
     pub below: f64,
-    /// The same of the side that has least of it.
+    /// The share of the side that has least of it.
     pub least_below: f64,
     /// Within it on its own level, as a printed border is.
     pub level: f64,
@@ -40,9 +40,9 @@ pub(super) struct Levels {
 }
 
 impl Levels {
-    pub(super) fn of(quad: &Quad, near: &[GroundEdge]) -> Self {
+    pub(super) fn from_edges(quad: &Quad, near: &[GroundEdge]) -> Self {
         let sides = quad.sides();
-        let lines = &sides.map(|side| Lines::of(&side, near));
+        let lines = &sides.map(|side| Lines::beside(&side, near));
         let best = |from: f64, to: f64| {
             let all = drops(from, to).map(|drop| nested(&sides, lines, drop));
             all.max_by(|a, b| a.mean.total_cmp(&b.mean)).unwrap_or(Nested { mean: 0.0, least: 0.0 })

@@ -15,7 +15,5 @@ mod levels;
 mod pieces;
 mod quad;
 mod support;
-#[cfg(test)]
-mod tests;
 
 pub(crate) use found::squares;

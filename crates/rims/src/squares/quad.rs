@@ -63,7 +63,7 @@ impl Side {
 }
 
 impl Quad {
-    /// None where two sides next to each other are parallel.
+    /// The corners where the lines meet; none where two sides next to each other are parallel.
     pub(super) fn of_lines(lines: &[Straight; 4]) -> Option<Self> {
         let meet = |a: &Straight, b: &Straight| {
             let solved = Matrix2::from_columns(&[a.1, -b.1]).try_inverse()? * (b.0 - a.0);

@@ -1,4 +1,4 @@
-//! How well the edges of a picture support a rectangle.
+//! The support that the edges of a picture give to a rectangle.
 
 use super::quad::{Quad, Side};
 use crate::edges::GroundEdge;
@@ -32,7 +32,7 @@ const CORNER_BINS: usize = 5;
 pub(super) struct Lines(Vec<f64>);
 
 impl Lines {
-    pub(super) fn of(side: &Side, near: &[GroundEdge]) -> Self {
+    pub(super) fn beside(side: &Side, near: &[GroundEdge]) -> Self {
         let mut held = vec![0_u32; usize::try_from(INSIDE_MM + 1).unwrap_or(0)];
         let bin = side.length / f64::from(u8::try_from(BINS).unwrap_or(u8::MAX));
         for e in near {
@@ -101,7 +101,7 @@ struct Sums {
 }
 
 impl Support {
-    pub(super) fn of(quad: &Quad, near: &[GroundEdge]) -> Self {
+    pub(super) fn from_edges(quad: &Quad, near: &[GroundEdge]) -> Self {
         let sides = quad.sides();
         let sums = sides.map(|side| sums(&side, near));
         let total = |of: fn(&Sums) -> f64| sums.iter().map(of).sum::<f64>();

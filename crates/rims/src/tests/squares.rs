@@ -8,7 +8,9 @@ use nalgebra::{Point2, Rotation2, Vector2};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
 
-use crate::{Rim, RimShape, find_rims_of};
+use crate::find::find_rims_of;
+use crate::rim::Rim;
+use crate::shape::RimShape;
 
 const SIZE_PX: [u32; 2] = [960, 720];
 const PLATES: usize = 24;

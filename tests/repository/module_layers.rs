@@ -1,12 +1,17 @@
-//! The layers of crates/pipeline in ARCHITECTURE.md, held against its sources: which of its modules may use which. Tests are
-//! not free.
+//! The layers of crates/pipeline in ARCHITECTURE.md, and the rooms of crates/rims in its `lib.rs`, held against the sources: which of
+//! their modules may use which. Tests are not free.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// The modules of crates/pipeline with their layers. A module uses modules of lower layers alone, so that none of them can
-/// need each other in a circle. `lib.rs`, which only declares and re-exports, belongs to none.
-const PIPELINE: [(&str, u32); 21] = [
+/// The modules of a crate, each with its layer. A module uses modules of lower layers alone, so that none of them can need each other
+/// in a circle. `lib.rs`, which only declares and re-exports, belongs to none.
+type Layers = &'static [(&'static str, u32)];
+
+/// The crates whose modules stand in layers.
+const CRATES: [(&str, Layers); 2] = [("pipeline", PIPELINE), ("rims", RIMS)];
+
+const PIPELINE: Layers = &[
     ("fault", 1),
     ("inputs", 1),
     ("overlay", 1),
@@ -30,27 +35,50 @@ const PIPELINE: [(&str, u32); 21] = [
     ("inspect", 6),
 ];
 
+const RIMS: Layers = &[
+    ("colour", 1),
+    ("edges", 1),
+    ("priors", 1),
+    ("rim_height", 1),
+    ("shape", 1),
+    ("weights", 1),
+    ("evidence", 2),
+    ("circles", 3),
+    ("rim", 3),
+    ("found", 4),
+    ("height", 4),
+    ("outline", 4),
+    ("squares", 4),
+    ("find", 5),
+    ("sizes", 5),
+    ("tests", 6),
+];
+
 #[test]
-fn pipeline_keeps_its_layers() {
-    let broken: Vec<String> = pipeline_sources().iter().flat_map(broken_layers).collect();
-    assert!(broken.is_empty(), "the layers of pipeline in ARCHITECTURE.md are broken:\n- {}", broken.join("\n- "));
+fn crates_keep_their_layers() {
+    for (name, layers) in CRATES {
+        let broken: Vec<String> = sources(name).iter().flat_map(|source| broken_layers(layers, source)).collect();
+        assert!(broken.is_empty(), "the layers of {name} are broken:\n- {}", broken.join("\n- "));
+    }
 }
 
 #[test]
-fn every_module_of_pipeline_has_a_layer() {
-    let lib = read_text(&pipeline_dir().join("lib.rs"));
-    let declared =
-        lib.lines().filter_map(|line| line.trim_start_matches("pub ").strip_prefix("mod ")?.strip_suffix(';'));
-    let expected: BTreeSet<&str> = PIPELINE.iter().map(|(module, _)| *module).collect();
-    assert_eq!(declared.collect::<BTreeSet<_>>(), expected, "a module of pipeline needs a line in PIPELINE");
+fn every_module_has_a_layer() {
+    for (name, layers) in CRATES {
+        let lib = read_text(&source_dir(name).join("lib.rs"));
+        let declared =
+            lib.lines().filter_map(|line| line.trim_start_matches("pub ").strip_prefix("mod ")?.strip_suffix(';'));
+        let expected: BTreeSet<&str> = layers.iter().map(|(module, _)| *module).collect();
+        assert_eq!(declared.collect::<BTreeSet<_>>(), expected, "a module of {name} needs a line among its layers");
+    }
 }
 
 /// The check itself sees each way of naming a module, and nothing else.
 #[test]
-fn upward_imports_of_pipeline_are_found() {
+fn upward_imports_are_found() {
     let broken = |path: &str, text: &str| {
         let module = path.split(['/', '.']).next().unwrap_or_default().to_owned();
-        broken_layers(&Source { module, path: path.to_owned(), text: text.to_owned() })
+        broken_layers(PIPELINE, &Source { module, path: path.to_owned(), text: text.to_owned() })
     };
     for (path, text) in [
         ("session/road.rs", "use crate::study::Study;\nuse crate::session::Prepared;\n"),
@@ -77,7 +105,7 @@ fn upward_imports_of_pipeline_are_found() {
     }
 }
 
-/// A source file of pipeline.
+/// A source file of a crate.
 struct Source {
     /// The module of the crate's root that it belongs to.
     module: String,
@@ -86,9 +114,9 @@ struct Source {
     text: String,
 }
 
-fn broken_layers(source: &Source) -> Vec<String> {
+fn broken_layers(layers: Layers, source: &Source) -> Vec<String> {
     let Source { module, path, text } = source;
-    let layer_of = |name: &str| PIPELINE.iter().find(|(module, _)| *module == name).map(|(_, layer)| *layer);
+    let layer_of = |name: &str| layers.iter().find(|(module, _)| *module == name).map(|(_, layer)| *layer);
     // A line of comment may name whatever it explains.
     let code: String =
         text.lines().filter(|line| !line.trim_start().starts_with("//")).flat_map(|l| [l, "\n"]).collect();
@@ -99,7 +127,7 @@ fn broken_layers(source: &Source) -> Vec<String> {
     if code.contains("super::super") {
         return vec![format!("{path} climbs by 'super::super': write 'crate::', which shows where it leads")];
     }
-    let Some(layer) = layer_of(module) else { return vec![format!("{path}: '{module}' has no line in PIPELINE")] };
+    let Some(layer) = layer_of(module) else { return vec![format!("{path}: '{module}' has no layer")] };
     let broken = |name: &String| match layer_of(name) {
         None => Some(format!("{path} uses '{name}' of the crate's root: name the module that it is in")),
         Some(of_name) if of_name >= layer && name != module => Some(format!(
@@ -149,8 +177,8 @@ fn items(group: &str) -> Vec<&str> {
     items
 }
 
-fn pipeline_sources() -> Vec<Source> {
-    let (root, mut folders, mut sources) = (pipeline_dir(), vec![pipeline_dir()], Vec::new());
+fn sources(name: &str) -> Vec<Source> {
+    let (root, mut folders, mut sources) = (source_dir(name), vec![source_dir(name)], Vec::new());
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{error}: {}", folder.display())) {
             let file = entry.expect("an entry of a folder of sources").path();
@@ -166,8 +194,8 @@ fn pipeline_sources() -> Vec<Source> {
     sources
 }
 
-fn pipeline_dir() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../pipeline/src")
+fn source_dir(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../{name}/src"))
 }
 
 fn read_text(path: &Path) -> String {

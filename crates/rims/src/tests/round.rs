@@ -9,7 +9,9 @@ use nalgebra::{Point2, Point3};
 use simulate::render::Renderer;
 use simulate::scene::{Bowl, Outline, Plate, Scene, Solid};
 
-use crate::{HeightSource, Rim, RimError, find_rims};
+use crate::find::{RimError, find_rims};
+use crate::rim::Rim;
+use crate::rim_height::HeightSource;
 
 const INPUTS: InputSigma = InputSigma {
     pitch_rad: 0.01,
