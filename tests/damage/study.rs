@@ -149,13 +149,13 @@ impl Told {
     /// The fact of the first problem with that code.
     #[track_caller]
     pub fn fact(&self, code: &str) -> &str {
-        let problem = self.status.problems.iter().find(|problem| problem.code == code);
+        let problem = self.status.problems.iter().find(|problem| problem.code.code() == code);
         &problem.unwrap_or_else(|| panic!("no {code} in {:?}", self.status.problems)).fact
     }
 
     fn codes(&self, severity: Severity) -> Vec<&str> {
         let of_it = self.status.problems.iter().filter(|problem| problem.severity == severity);
-        let mut codes: Vec<&str> = of_it.map(|problem| problem.code.as_str()).collect();
+        let mut codes: Vec<&str> = of_it.map(|problem| problem.code.code()).collect();
         codes.dedup();
         codes
     }

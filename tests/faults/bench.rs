@@ -134,7 +134,7 @@ impl Bench {
     pub fn losses(&self) -> Vec<(String, Vec<String>)> {
         let of = |status: SessionStatus| {
             let losses = status.problems.iter().filter(|problem| problem.severity == Severity::Loss);
-            (status.session.clone(), losses.map(|problem| problem.code.clone()).collect::<Vec<_>>())
+            (status.session.clone(), losses.map(|problem| problem.code.code().to_owned()).collect::<Vec<_>>())
         };
         self.statuses().into_iter().map(of).filter(|(_, codes)| !codes.is_empty()).collect()
     }

@@ -58,7 +58,7 @@ fn told_and_read_anew(file: impl Fn(&Bench) -> PathBuf, change: fn(&mut Vec<u8>)
         change(&mut bytes);
         std::fs::write(&path, bytes).unwrap();
     });
-    let told = |status: &SessionStatus| status.problems.iter().any(|problem| problem.code == "card_changed");
+    let told = |status: &SessionStatus| status.problems.iter().any(|problem| problem.code.code() == "card_changed");
     let told: Vec<&str> = sessions.iter().filter(|status| told(status)).map(|status| status.session.as_str()).collect();
     assert_eq!(told, ["S00002"]);
     let output = bench.run();

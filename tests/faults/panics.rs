@@ -17,7 +17,7 @@ fn panics_in(stage: Stage) {
         assert_eq!(status.failed, status.session == "S00003", "{status:?}");
     }
     let problem = &statuses[2].problems[0];
-    assert_eq!((problem.stage, problem.code.as_str()), (stage, "internal_error"));
+    assert_eq!((problem.stage, problem.code.code()), (stage, "internal_error"));
     assert!(problem.fact.contains("a fault on purpose"), "{problem:?}");
     assert_eq!(statuses[2].images, 6, "its images are in the ledger");
     assert_eq!(bench.run_well(), bench.undisturbed());

@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The crates of the workspace in data-flow order, each with those that it may use.
-const LAYERS: [(&str, &[&str]); 6] = [
+const LAYERS: [(&str, &[&str]); 7] = [
     ("model", &[]),
     ("ingest", &["model"]),
-    ("pipeline", &["model", "ingest"]),
+    ("rims", &["model", "ingest"]),
+    ("pipeline", &["model", "ingest", "rims"]),
     ("report", &["model"]),
     ("simulate", &["model"]),
-    ("cli", &["model", "ingest", "pipeline", "report", "simulate"]),
+    ("cli", &["model", "ingest", "rims", "pipeline", "report", "simulate"]),
 ];
 
 /// Crates with few homes, and why.
@@ -28,7 +29,7 @@ const HOMES: [(&[&str], &[&str], &str); 10] = [
     (&["rusqlite", "redb"], &["pipeline"], "what is kept between runs is pipeline's alone"),
     (&["askama"], &["report"], "pages and figures are made from results alone"),
     (&["quick-xml"], &["pipeline"], "XML is a format of marks alone, from CVAT"),
-    (&["wide"], &["pipeline"], "of all loops, only the search for rims asks for a processor's lanes by name"),
+    (&["wide"], &["rims"], "of all loops, only the search for rims asks for a processor's lanes by name"),
     (&["polars", "arrow", "parquet"], &["report"], "it is most of the build, and rows go through model::ResultSink"),
     (
         &["clap", "indicatif", "miette", "anyhow", "tracing-subscriber", "signal-hook"],

@@ -230,7 +230,7 @@ fn a_picture_that_cannot_be_decoded_is_told_and_the_others_are_searched() {
     let sessions = ran.sessions();
     let problems = sessions.iter().flat_map(|session| &session.problems);
     let problems: Vec<_> = problems.filter(|problem| problem.severity == Severity::Loss).collect();
-    assert!(matches!(problems.as_slice(), [one] if one.code == "picture_not_searched"), "{problems:?}");
+    assert!(matches!(problems.as_slice(), [one] if one.code.code() == "picture_not_searched"), "{problems:?}");
     assert!(ran.rows().iter().any(|row| row.session == "S3"));
 }
 

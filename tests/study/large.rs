@@ -42,7 +42,7 @@ impl Large {
         assert_eq!(damaged.len(), sessions);
         for status in &self.sessions {
             let losses = status.problems.iter().filter(|problem| problem.severity == Severity::Loss);
-            let codes: Vec<&str> = losses.map(|problem| problem.code.as_str()).collect();
+            let codes: Vec<&str> = losses.map(|problem| problem.code.code()).collect();
             match damaged.get(&status.session) {
                 Some(row) => assert!(codes.contains(&row["code"].as_str()), "{row:?}, but {codes:?}"),
                 None => assert!(!status.has_losses(), "{} is whole, but {codes:?}", status.session),

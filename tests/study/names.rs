@@ -82,7 +82,7 @@ fn a_name_that_nothing_has_is_told() {
     let ran = run(&study, "r", &AUTO, 3);
     let losses = losses(&ran);
     let [one] = losses.as_slice() else { panic!("{losses:?}") };
-    assert_eq!((one.code.as_str(), one.place.as_str()), ("name_not_found", "names.csv line 3"));
+    assert_eq!((one.code.code(), one.place.as_str()), ("name_not_found", "names.csv line 3"));
     assert!(one.fact.contains("'auto-77'") && one.fact.contains("'S2'"), "{}", one.fact);
     run(&study, "people", &["--marks", "manual"], 0); // nobody looked for it
 }

@@ -22,7 +22,7 @@ use crate::logging::LogFormat;
 #[derive(Debug, Parser)]
 #[command(name = "aim-batch", version, propagate_version = true)]
 pub struct Args {
-    /// What to do
+    /// The command to carry out
     #[command(subcommand)]
     pub command: Command,
     /// Say more: -v every problem and what each session does, -vv debugging
@@ -31,12 +31,12 @@ pub struct Args {
     /// Form of the log on stderr
     #[arg(long, value_enum, default_value_t = LogFormat::Text, global = true, env = "AIM_BATCH_LOG_FORMAT", help_heading = "Messages")]
     pub log_format: LogFormat,
-    /// No progress: no bars on a terminal, no lines elsewhere
+    /// Show no progress: no bars on a terminal, no lines elsewhere
     #[arg(short, long, global = true, help_heading = "Messages")]
     pub quiet: bool,
 }
 
-/// The commands. The line above each is what `aim-batch --help` says of it.
+/// The commands. `aim-batch --help` shows the line above each.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// The main job: ingest what is new, select, measure, write results, print tables

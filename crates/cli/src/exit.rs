@@ -3,7 +3,7 @@
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
-/// All well.
+/// All is well.
 const WELL: u8 = 0;
 /// The command failed, or with `run --expect` the tables differ.
 const FAILED: u8 = 1;
@@ -11,13 +11,13 @@ const FAILED: u8 = 1;
 const USAGE: u8 = 2;
 /// The command finished, but some sessions failed or data was lost; the messages say which and why.
 const LOSSES: u8 = 3;
-/// Plus the signal's number: a signal stopped the command (130 for SIGINT, 143 for SIGTERM), as shells have it. What was
-/// done is kept.
+/// To be added to a signal's number: the signal stopped the command (130 for SIGINT, 143 for SIGTERM), as shells have it.
+/// All finished work is kept.
 const SIGNAL: u8 = 128;
 
 /// How a command ended.
 pub enum Outcome {
-    /// All well.
+    /// All is well.
     Well,
     /// The command finished, but something was lost; the messages have said what.
     WithLosses,
@@ -29,7 +29,7 @@ pub enum Failure {
     Usage(anyhow::Error),
     /// The signal of this number came.
     Stopped(usize, anyhow::Error),
-    /// Anything else.
+    /// Any other failure.
     Failed(anyhow::Error),
 }
 
@@ -67,12 +67,12 @@ pub fn code_of_signal(signal: usize) -> u8 {
 fn fail(error: &anyhow::Error, code: u8) -> ExitCode {
     let mut text = format!("error: {error}\n");
     for cause in error.chain().skip(1) {
-        // Libraries that print their source in their own message would otherwise say it twice.
+        // An error of a library that prints its source in its own message would otherwise say it twice.
         if !text.contains(&cause.to_string()) {
             text.push_str(&format!("  because: {cause}\n"));
         }
     }
-    // Nothing is left to be done when stderr is closed.
+    // Nothing can be done where stderr is closed.
     let _ = std::io::stderr().write_all(text.as_bytes());
     ExitCode::from(code)
 }

@@ -1,4 +1,4 @@
-//! Log events of the libraries, to stderr.
+//! Writes the log events of the libraries to stderr.
 
 use std::io::{self, Write};
 
@@ -11,26 +11,26 @@ use tracing_subscriber::util::SubscriberInitExt;
 
 use crate::progress::Bars;
 
-/// Form of the log.
+/// The form of the log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum LogFormat {
-    /// Lines for people.
+    /// Lines for people
     Text,
-    /// One JSON object per line.
+    /// One JSON object per line
     Json,
 }
 
-/// Starts logging: errors, with `-v` also warnings and information, with `-vv` debugging. As JSON, information
-/// always.
+/// Starts logging. Errors are always written, warnings and information with `-v` (`verbose` 1) and always as JSON, and
+/// debugging with `-vv`.
 ///
-/// The problems of sessions are warnings: `run` lists them at its end, for people, and the log has them for programs.
+/// The problems of sessions are warnings: `run` lists them at its end for people, and the log has them for programs.
 pub fn start(verbose: u8, format: LogFormat, bars: &Bars) {
     let level = match (verbose, format) {
         (0, LogFormat::Text) => LevelFilter::ERROR,
         (0, LogFormat::Json) | (1, _) => LevelFilter::INFO,
         _ => LevelFilter::DEBUG,
     };
-    // Other libraries' events are of use to nobody who measures plates.
+    // The events of foreign libraries are of no use to people who measure plates, unless they are errors.
     let ours = Targets::new()
         .with_target("aim_batch", level)
         .with_target("aim_batch::progress", LevelFilter::INFO) // --quiet makes none
@@ -46,7 +46,7 @@ pub fn start(verbose: u8, format: LogFormat, bars: &Bars) {
     }
 }
 
-/// Writes above the progress bars, so that neither spoils the other.
+/// A writer to stderr that writes above the progress bars, so that neither spoils the other.
 struct AboveBars(Bars);
 
 impl<'a> MakeWriter<'a> for AboveBars {

@@ -1,6 +1,6 @@
 //! `aim-batch`: measures plates and bowls in recordings of a camera worn on eyeglasses.
 //!
-//! Arguments, progress, logs and exit codes; nothing else. Results go to stdout, diagnostics to stderr.
+//! This crate holds arguments, progress, logs and exit codes, and nothing else. Results go to stdout, diagnostics to stderr.
 
 mod args;
 mod commands;

@@ -1,4 +1,4 @@
-//! The command line as clap sees it.
+//! Tests of the command line as clap sees it.
 
 use clap::CommandFactory;
 
@@ -9,7 +9,7 @@ fn the_command_line_is_well_formed() {
     Args::command().debug_assert();
 }
 
-/// `run` has too many flags for one list.
+/// `run` has too many flags for a single list.
 #[test]
 fn every_flag_of_run_stands_in_a_group_of_its_help() {
     let mut command = Args::command();

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use model::CameraSpecError;
+use model::{CameraSpecError, ProblemCode};
 
 use crate::card::PatternError;
 use crate::config::ConfigError;
@@ -85,15 +85,15 @@ impl IngestError {
 
     /// Stable code, for the status of a session.
     #[must_use]
-    pub fn code(&self) -> &'static str {
+    pub fn code(&self) -> ProblemCode {
         match self {
-            Self::NoCard { .. } => "missing_card",
-            Self::NothingFits { .. } => "card_does_not_fit_profile",
-            Self::Profile(_) | Self::Pattern(_) | Self::Layout(_) => "bad_profile",
-            Self::Camera(_) => "bad_camera",
-            Self::Thread(_) => "no_thread",
-            Self::Stopped => "stopped",
-            Self::Write { .. } | Self::Metadata(_) | Self::Key(_) => "mcap_not_written",
+            Self::NoCard { .. } => ProblemCode::MissingCard,
+            Self::NothingFits { .. } => ProblemCode::CardDoesNotFitProfile,
+            Self::Profile(_) | Self::Pattern(_) | Self::Layout(_) => ProblemCode::BadProfile,
+            Self::Camera(_) => ProblemCode::BadCamera,
+            Self::Thread(_) => ProblemCode::NoThread,
+            Self::Stopped => ProblemCode::Stopped,
+            Self::Write { .. } | Self::Metadata(_) | Self::Key(_) => ProblemCode::McapNotWritten,
         }
     }
 

@@ -90,7 +90,7 @@ impl JointError {
         match self {
             Self::TooFew(_) => "too_few_pictures",
             Self::TooAlike { .. } => "pictures_too_alike",
-            Self::Impossible(error) => error.code(),
+            Self::Impossible(error) => error.problem_code().code(),
         }
     }
 }

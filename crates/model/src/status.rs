@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::codes::coded_enum;
+use crate::problem_code::ProblemCode;
 
 coded_enum! {
     /// The stage of the work at which a problem arose.
@@ -31,7 +32,7 @@ pub struct Problem {
     /// The stage at which it arose.
     pub stage: Stage,
     /// The stable code, in snake case.
-    pub code: String,
+    pub code: ProblemCode,
     /// The file or folder that it concerns, relative to the study.
     pub place: String,
     /// The fact: what was expected, and what there is.

@@ -1,11 +1,15 @@
-//! docs/results.md is made from the schema, and docs/ledger.md from the reasons. `AIM_BATCH_UPDATE=1` rewrites both.
+//! docs/results.md is made from the schema, docs/ledger.md from the reasons and docs/problems.md from the codes.
+//! `AIM_BATCH_UPDATE=1` rewrites them.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use aim_batch_model::problems_markdown;
 use aim_batch_model::results::{dictionary_markdown, ledger_markdown};
 
 #[test]
 fn the_documents_are_those_of_the_code() {
-    for (file, expected) in [("results.md", dictionary_markdown()), ("ledger.md", ledger_markdown())] {
+    for (file, expected) in
+        [("results.md", dictionary_markdown()), ("ledger.md", ledger_markdown()), ("problems.md", problems_markdown())]
+    {
         let path = format!("{}/../../docs/{file}", env!("CARGO_MANIFEST_DIR"));
         if std::env::var_os("AIM_BATCH_UPDATE").is_some_and(|value| value == "1") {
             std::fs::write(&path, &expected).unwrap();

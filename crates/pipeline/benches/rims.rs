@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use aim_batch_pipeline::rims::find_rims;
 use ingest::Picture;
 use model::{Kind, View};
+use rims::find_rims;
 use simulate::laid::{self, Frame};
 
 use crate::python::Python;

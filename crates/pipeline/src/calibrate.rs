@@ -1,4 +1,4 @@
-//! The command `calibrate`: learns from a bench with known sizes what a run then reads from calibration.toml.
+//! The command `calibrate` learns from a bench with known sizes what a run then reads from calibration.toml.
 
 use std::cell::Cell;
 
@@ -16,14 +16,15 @@ use crate::signals::RangeCone;
 use crate::study::{Study, StudySpec};
 use crate::survey::{Survey, SurveyError, SurveyOptions};
 
-/// Settings of a study for its calibration: every method that calibrates or is calibrated, and both readings of the range.
+/// Changes the settings of a study for its calibration: every method that calibrates or is calibrated, and both readings of
+/// the range.
 pub fn adjust(spec: &mut StudySpec) {
     spec.measure.methods = vec![Method::Paper, Method::Ray, Method::Coaxial];
     spec.signals.range_cone = RangeCone::TiltedPlane;
 }
 
-/// Learns what a study with true sizes tells. The study must have been loaded with [`adjust`]. Sessions that declare a setup are
-/// used; all of them where none does.
+/// Learns a calibration from a study with true sizes, which must have been loaded with [`adjust`]. Sessions that declare a
+/// setup are used; all of them where none does.
 ///
 /// # Errors
 /// [`SurveyError`] for what concerns the calibration as a whole. What the data do not determine is in the file's notes.
@@ -87,7 +88,7 @@ fn add_physical(file: &mut CalibrationFile, used: &[&SessionOutput], prior: &Inp
     file.physical = Some(entry);
 }
 
-/// What setups left out of the fit are off by beyond what corrected sizes claim.
+/// The error, in per cent, of setups left out of the fit, beyond what corrected sizes claim.
 fn unexplained_pct(entry: &PhysicalEntry, sizes: &[BenchSize]) -> f64 {
     let Some(off_pct) = entry.without_setup.after_rmse_pct else { return 0.0 };
     let correction = entry.correction();
@@ -98,7 +99,7 @@ fn unexplained_pct(entry: &PhysicalEntry, sizes: &[BenchSize]) -> f64 {
     (off_pct * off_pct - mean).max(0.0).sqrt()
 }
 
-/// In units for people.
+/// The note on a parameter that is not determined, in units for people.
 fn refusal(fitted: &Physical, parameter: usize, prior: &InputSigma) -> String {
     let source = LEARNED[parameter];
     let (per, unit) = match source {
@@ -113,7 +114,7 @@ fn refusal(fitted: &Physical, parameter: usize, prior: &InputSigma) -> String {
     )
 }
 
-/// Rows of one sort have one line.
+/// Fits a line to the rows of each sort: kind of container, heights or mouths.
 fn add_empirical(file: &mut CalibrationFile, used: &[&SessionOutput]) {
     let rows: Vec<&ResultRow> = used.iter().flat_map(|output| &output.results).collect();
     for kind in Kind::ALL {

@@ -1,11 +1,12 @@
-//! What a run was made from: SHA-256 of small input files (cards are hashed as they are ingested).
+//! SHA-256 of the small input files of a run. (Cards are hashed as they are ingested.)
 
 use std::io;
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-/// SHA-256 of a file, in hexadecimal, in bounded memory. What is no file, such as a pipe, is not opened: that could last.
+/// SHA-256 of a file, in hexadecimal, in bounded memory. Anything but a regular file, such as a pipe, is not opened, since
+/// it might never end.
 pub(crate) fn sha256_of_file(path: &Path) -> io::Result<String> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(io::Error::other("not a regular file"));

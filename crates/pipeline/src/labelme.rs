@@ -1,4 +1,4 @@
-//! Marks made by people, as LabelMe files (<https://github.com/wkentaro/labelme>).
+//! Reads marks from LabelMe files (<https://github.com/wkentaro/labelme>), and writes such files.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -9,29 +9,28 @@ use model::{Feature, Mark, ObjectMarks, Quantity};
 use nalgebra::Point2;
 use serde::Deserialize;
 
-use crate::rims::Found;
-pub(crate) use error::MARKS_UNREADABLE;
 pub use error::MarksError;
+use rims::Found;
 pub(crate) use write::{AutoRim, Shape as OutShape, text_of, text_of_shapes};
 
 mod error;
 mod write;
 
-/// Larger than any file of marks (LabelMe may embed the picture itself).
+/// A file of marks is never larger than this (LabelMe may embed the picture itself).
 const LARGEST_FILE_BYTES: u64 = 256 * 1024 * 1024;
 
 /// The labels that are read, for messages.
 const EXPECTED: &str =
     "OBJECT/diameter, OBJECT/width, OBJECT/length or OBJECT/height as a line, OBJECT/rim or OBJECT/base as a polygon";
 
-/// What one file holds.
+/// The content of one file.
 #[derive(Debug, Default)]
 pub struct Marks {
-    /// Marks by object, in the order of their names.
+    /// The marks by object, in the order of their names.
     pub objects: Vec<ObjectMarks>,
-    /// What is known of those that the program found itself, by object.
+    /// The found rims behind the marks that the program made, by object.
     pub found: BTreeMap<String, Found>,
-    /// Shapes that are no marks: [`MarksError::Shape`], in file order.
+    /// The shapes that are no marks: [`MarksError::Shape`], in the order of the file.
     pub refused: Vec<MarksError>,
 }
 
@@ -50,12 +49,12 @@ struct Shape {
     points: Vec<[f64; 2]>,
     #[serde(default)]
     shape_type: Option<String>,
-    /// A key of this program's own: LabelMe keeps keys that it does not know.
+    /// A key of this program's own, with the found rim; LabelMe keeps keys that it does not know.
     #[serde(rename = "aim_batch", default)]
     found: Option<serde_json::Value>,
 }
 
-/// Reads the bytes of a file of marks, for [`parse`].
+/// The bytes of a file of marks, for [`parse`].
 ///
 /// # Errors
 /// [`MarksError::Unreadable`] and [`MarksError::TooLarge`].
@@ -73,8 +72,8 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, MarksError> {
     Ok(bytes)
 }
 
-/// Parses the bytes of a LabelMe file. `path` is for messages; `picture_px`: width and height of the pictures that were
-/// marked.
+/// The marks in the bytes of a LabelMe file. `path` is for messages; `picture_px` is the width and height of the pictures
+/// that were marked.
 ///
 /// # Errors
 /// [`MarksError`] where nothing of the file can be used. A shape that is no mark is in [`Marks::refused`]; the others are
@@ -118,7 +117,7 @@ fn too_many() -> String {
     format!("expected at most {MOST_MARKS} marks and {MOST_POINTS} points of one object in one picture")
 }
 
-/// What finding the rim told of it, where the program found it.
+/// The found rim of a shape, where the program made it.
 fn found_of(shape: &Shape) -> Result<Option<Found>, String> {
     let refuse = |fact: String| format!("its key aim_batch is not as this program wrote it ({fact}): remove the key");
     let Some(value) = &shape.found else { return Ok(None) };
@@ -224,7 +223,7 @@ mod tests {
     fn marks_of_another_picture_are_refused() {
         let text = br#"{"shapes": [], "imageWidth": 640, "imageHeight": 480}"#;
         let error = parse(text, Path::new("m.json"), [2592, 1944]).unwrap_err();
-        assert_eq!(error.code(), "marks_of_other_picture");
+        assert_eq!(error.code().code(), "marks_of_other_picture");
         assert!(error.to_string().contains("640 x 480") && error.to_string().contains("2592 x 1944"));
         assert!(parse(br#"{"shapes": []}"#, Path::new("m.json"), [2592, 1944]).is_ok(), "the size may be left out");
     }

@@ -1,14 +1,14 @@
 //! From a study on disk to rows of results.
 //!
-//! One session: its card is ingested to MCAP, [`signals`] turn samples into a pose for each image, frames near the target
-//! pitch are selected, people's marks ([`labelme`]) become sizes, and sizes of selected frames are fused. [`run`] does this
-//! for all sessions of a [`Study`] in parallel and hands the rows to a [`model::ResultSink`].
+//! In one session the card is ingested to MCAP, [`signals`] turn samples into a pose for each image, images near the target
+//! pitch are selected, people's marks ([`labelme`]) become sizes, and the sizes of selected images are fused. [`run()`] does
+//! this for all sessions of a [`Study`] in parallel and hands the rows to a [`model::ResultSink`].
 //!
-//! [`check`] goes the same road without pictures and stores nothing: what a run would lose, before it. [`inspect`] tells
-//! what is in recordings.
+//! [`check()`] does the same without pictures and stores nothing: it tells before a run what that would lose. [`inspect`]
+//! shows the content of recordings.
 //!
-//! Progress is told to a [`Reporter`]; this crate draws nothing. A session that fails becomes a status with a code, a fact
-//! and a remedy; the others complete.
+//! Progress is reported to a [`Reporter`]; this crate draws nothing. A session that fails becomes a status with a code, a
+//! fact and a remedy; the others complete.
 #![warn(missing_docs)]
 
 mod annotate;
@@ -25,7 +25,6 @@ pub mod labelme;
 pub mod overlay;
 mod parallel;
 mod reporter;
-pub mod rims;
 mod run;
 mod session;
 pub mod signals;

@@ -1,4 +1,4 @@
-//! Rims, axes and sizes drawn on a picture, for people to look at.
+//! Draws rims, axes and sizes on a picture, for people to look at.
 
 use embedded_graphics::Drawable;
 use embedded_graphics::Pixel;
@@ -12,22 +12,22 @@ use ingest::Picture;
 use model::{Feature, Mark, ObjectMarks, Shape, View, fit_circle};
 use nalgebra::{Point2, Point3, Vector2};
 
-/// What is drawn of one object.
+/// An object to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawn {
-    /// Its marks.
+    /// The marks of the object.
     pub marks: ObjectMarks,
-    /// Its outline: what is drawn through points along its rim.
+    /// The outline of the object, which is drawn through the points along its rim.
     pub shape: Shape,
-    /// Height of its rim above the table, where circles and rectangles are drawn.
+    /// The height of its rim above the table, at which circles and rectangles are drawn.
     pub plane_z_mm: f64,
-    /// What is written beside it, line by line (ASCII).
+    /// The text beside it, line by line (ASCII).
     pub text: Vec<String>,
 }
 
-/// Line width: one pixel for pictures of up to this many pixels across.
+/// A line is one pixel wide for pictures of up to this many pixels across.
 const LINE_SIDE_PX: u32 = 800;
-/// Places along a drawn circle, and along a side.
+/// The number of places along a drawn circle, and along a side.
 const PLACES: u32 = 180;
 const SIDE_PLACES: u32 = 24;
 const RIM: Rgb888 = Rgb888::GREEN;
@@ -47,7 +47,7 @@ pub fn draw(picture: &mut Picture, view: &View, objects: &[Drawn]) {
         if let Some(corner) = corner {
             let text = object.text.join("\n");
             let extent = Text::new(&text, corner, style).bounding_box();
-            // Moved back where it would run over the right border or the bottom.
+            // The text is moved back where it would run over the right border or the bottom.
             let over =
                 |end: Option<i32>, most: u32| end.map_or(0, |end| (end - i32::try_from(most).unwrap_or(end)).max(0));
             let end = extent.bottom_right();
@@ -58,7 +58,7 @@ pub fn draw(picture: &mut Picture, view: &View, objects: &[Drawn]) {
     }
 }
 
-/// The marks and the circles through them; where text belongs.
+/// Draws the marks and the circles through them, and returns the place where text belongs.
 fn draw_marks(canvas: &mut Canvas<'_>, view: &View, object: &Drawn, width: u32) -> Option<Point> {
     let mut corner = None;
     for mark in &object.marks.marks {
@@ -90,7 +90,7 @@ fn draw_marks(canvas: &mut Canvas<'_>, view: &View, object: &Drawn, width: u32) 
     corner
 }
 
-/// The sides between corners on a plane, straight there, and the lines from side to side.
+/// Draws the sides between corners on a plane, straight there, and the lines from side to side.
 fn corners(canvas: &mut Canvas<'_>, view: &View, corners_px: [Point2<f64>; 4], z_mm: f64, width: u32) {
     let [Ok(a), Ok(b), Ok(c), Ok(d)] = corners_px.map(|p| view.on_plane(p, z_mm)) else { return };
     let mut straight = |from: Point2<f64>, to: Point2<f64>, colour: Rgb888| {
@@ -112,7 +112,7 @@ fn corners(canvas: &mut Canvas<'_>, view: &View, corners_px: [Point2<f64>; 4], z
     }
 }
 
-/// The circle through points on a plane, with its axes along world X and Y.
+/// Draws the circle through points on a plane, with its axes along world X and Y.
 fn circle(canvas: &mut Canvas<'_>, view: &View, points_px: &[Point2<f64>], z_mm: f64, width: u32) {
     let on_plane: Result<Vec<_>, _> = points_px.iter().map(|p| view.on_plane(*p, z_mm)).collect();
     let Some(fitted) = on_plane.ok().and_then(|points| fit_circle(&points, |_, _| 1.0).ok()) else { return };

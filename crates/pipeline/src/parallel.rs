@@ -1,17 +1,17 @@
-//! All sessions of a study in parallel, each by itself: what goes wrong in one never stops the others.
+//! Works on all sessions of a study in parallel, on each by itself: a fault of one never stops the others.
 
 use std::any::Any;
 use std::cell::Cell;
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use model::{Problem, Severity, Stage};
+use model::{Problem, ProblemCode, Severity, Stage};
 use rayon::prelude::*;
 
 use crate::study::SessionDir;
 
-/// How many sessions at a time, unless told: as many as cores that this process may use (its affinity, its control group's
-/// quota, and what Slurm gave it).
+/// The number of sessions at a time where none is given: as many as cores that this process may use (by its affinity, its
+/// control group's quota, and Slurm's allocation).
 #[must_use]
 pub fn default_jobs() -> NonZeroUsize {
     let cores = std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
@@ -23,7 +23,7 @@ pub(crate) fn jobs_or_default(jobs: Option<NonZeroUsize>) -> NonZeroUsize {
     jobs.unwrap_or_else(default_jobs)
 }
 
-/// What `one` makes of each item, `jobs` at a time (none: [`default_jobs`]), in the order of the items.
+/// The results of `one` for all items, in their order; `jobs` items are worked on at a time (none: [`default_jobs`]).
 pub(crate) fn in_parallel<T: Sync, R: Send>(
     items: &[T],
     jobs: Option<NonZeroUsize>,
@@ -34,7 +34,7 @@ pub(crate) fn in_parallel<T: Sync, R: Send>(
     Ok(pool.install(|| items.par_iter().with_max_len(1).map(one).collect()))
 }
 
-/// What `work` on a session gives; a panic becomes a problem of the stage that it was in.
+/// The result of `work` on a session. A panic becomes a problem of the stage in which it came.
 pub(crate) fn unless_panicking<R>(
     dir: &SessionDir,
     stage: &Cell<Stage>,
@@ -48,7 +48,7 @@ fn internal_error(dir: &SessionDir, stage: Stage, panic: &(dyn Any + Send)) -> P
     Problem {
         severity: Severity::Loss,
         stage,
-        code: "internal_error".to_owned(),
+        code: ProblemCode::InternalError,
         place: format!("cards/{}", dir.name),
         fact: format!("the program failed on this session: {}", said.unwrap_or("no message")),
         remedy: "report it with this message; the other sessions are not affected".to_owned(),

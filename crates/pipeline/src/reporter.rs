@@ -1,37 +1,37 @@
-//! How a run tells what it is doing. Drawing is the caller's.
+//! The progress of a run, as it is reported. Drawing it is up to the caller.
 
 use model::{SessionStatus, Stage};
 
-/// How much there is to do.
+/// The amount of work of a run.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Totals {
-    /// All sessions.
+    /// The number of all sessions.
     pub sessions: usize,
-    /// Those for which nothing is to be done.
+    /// The number of sessions for which nothing has to be done.
     pub kept: usize,
-    /// Bytes of cards to be read, where that is known.
+    /// The number of bytes of cards that have to be read, where that is known.
     pub bytes: Option<u64>,
 }
 
-/// Told how far a run is. Called from several threads at once.
+/// Receives the progress of a run. Its functions are called from several threads at once.
 pub trait Reporter: Sync {
-    /// The work begins.
+    /// Called when the work begins.
     fn begin(&self, totals: &Totals);
 
-    /// A session begins a stage.
+    /// Called when a session begins a stage.
     fn stage(&self, session: &str, stage: Stage);
 
-    /// A session's card has `bytes` to be read.
+    /// Called when it is known that `bytes` of a session's card have to be read.
     fn bytes_to_read(&self, session: &str, bytes: u64);
 
-    /// `bytes` more of it have been read.
+    /// Called when `bytes` more of the card have been read.
     fn bytes_read(&self, session: &str, bytes: u64);
 
-    /// A session is done, well or not.
+    /// Called when a session is done, well or not.
     fn done(&self, status: &SessionStatus);
 }
 
-/// Tells nobody.
+/// A reporter that reports to nobody.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Silent;
 

@@ -1,9 +1,9 @@
-//! A wish to stop: from outside (a signal), or from inside.
+//! The wish to stop, from outside (a signal) or from inside.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Shared by all threads of a command; stays set once it is.
+/// The wish to stop, shared by all threads of a command. It stays set once it is.
 #[derive(Debug, Clone, Default)]
 pub struct Stop {
     signal: Arc<AtomicUsize>,
@@ -11,13 +11,13 @@ pub struct Stop {
 }
 
 impl Stop {
-    /// Where a signal handler stores the signal's number; 0 means none.
+    /// The place where a signal handler stores the signal's number; 0 means none.
     #[must_use]
     pub fn signal_slot(&self) -> Arc<AtomicUsize> {
         Arc::clone(&self.signal)
     }
 
-    /// Number of the signal that came, if one did.
+    /// The number of the signal that came, if one did.
     #[must_use]
     pub fn signal(&self) -> Option<usize> {
         Some(self.signal.load(Ordering::SeqCst)).filter(|number| *number != 0)

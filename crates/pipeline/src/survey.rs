@@ -1,4 +1,4 @@
-//! Sessions surveyed into a temporary folder: nothing is written into the study, or beside it.
+//! Surveys sessions into a temporary folder. Nothing is written into the study, or beside it.
 
 use std::num::NonZeroUsize;
 
@@ -13,32 +13,32 @@ use crate::study::{SessionDir, Study};
 /// Settings of a survey.
 #[derive(Debug, Clone)]
 pub struct SurveyOptions {
-    /// Worker threads; none for one per core that this process may use.
+    /// The number of worker threads; none for one per core that this process may use.
     pub jobs: Option<NonZeroUsize>,
-    /// Program and version, for messages.
+    /// The program and its version, for messages.
     pub program: String,
-    /// A wish to stop.
+    /// The wish to stop, from a signal or from inside.
     pub stop: Stop,
 }
 
-/// Why a survey stopped. What concerns one session never stops it.
+/// The reason why a survey stopped. What concerns one session never stops it.
 #[derive(Debug, thiserror::Error)]
 pub enum SurveyError {
-    /// The temporary folder.
+    /// The temporary folder cannot be made.
     #[error("cannot make a temporary folder: {0}; the environment variable TMPDIR says where")]
     TempDir(#[from] std::io::Error),
-    /// The worker threads.
+    /// The worker threads cannot be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
     /// A signal came.
     #[error("stopped by a signal before all sessions were looked at")]
     Stopped {
-        /// Its number.
+        /// The number of the signal.
         signal: usize,
     },
 }
 
-/// The temporary folder of a survey; gone with all that is in it when this is dropped.
+/// The temporary folder of a survey, which is gone with all its content when this is dropped.
 pub(crate) struct Survey {
     folder: TempDir,
     pub options: SessionOptions,
@@ -57,7 +57,7 @@ impl Survey {
         Ok(Self { folder, options })
     }
 
-    /// What `one` makes of each session, in the order of their names, until a signal comes.
+    /// The results of `one` for all sessions, in the order of their names, unless a signal comes.
     pub fn for_each_session<R: Send>(
         &self,
         study: &Study,
@@ -78,7 +78,7 @@ impl Survey {
         }
     }
 
-    /// Removes what was written of a session, so that the folder never holds more than the sessions at work.
+    /// Removes the file of a session, so that the folder never holds more than the sessions at work.
     fn forget(&self, dir: &SessionDir) {
         let file = self.folder.path().join(format!("{}.mcap", dir.name));
         if let Err(error) = std::fs::remove_file(&file)

@@ -1,4 +1,4 @@
-//! Rims that a run found, as files that a person can check and correct.
+//! Writes found rims as files of marks that a person can check and correct.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write as _};
@@ -11,40 +11,41 @@ use crate::session::{Prepared, SessionOutput};
 use crate::study::{AUTO, SessionDir, Study, stem_of};
 use crate::work::{WorkError, WorkFolder};
 
-/// What was written.
+/// The files that were written, or left alone.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct MarksWritten {
-    /// Files with rims, as they are now in the folder.
+    /// The number of files with rims that are now in the folder as they would be written.
     pub files: usize,
-    /// Files that were there with other content: somebody's corrections, or those of another run. They were left alone.
+    /// The number of files that were there with other content: somebody's corrections, or the rims of another run. They were
+    /// left alone.
     pub left: usize,
 }
 
-/// Why they were not.
+/// The reason why marks were not written.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteMarksError {
-    /// The work folder.
+    /// The work folder cannot be used.
     #[error(transparent)]
     Work(#[from] WorkError),
-    /// What is kept there.
+    /// The output that is kept there cannot be read.
     #[error("session '{session}': what was kept of it cannot be read: {source}; run with --force")]
     Kept {
-        /// The session.
+        /// The name of the session.
         session: String,
-        /// Why.
+        /// The error behind it.
         source: serde_json::Error,
     },
-    /// A file.
+    /// A file cannot be written.
     #[error("cannot write the marks: {source}: {}", path.display())]
     File {
         /// The file or folder.
         path: PathBuf,
-        /// Why.
+        /// The error behind it.
         source: io::Error,
     },
 }
 
-/// Writes what the last run of `study` in `work_dir` found without marks: `folder/auto/SESSION/IMAGE.json`, LabelMe files as in
+/// Writes the rims that the last run of `study` in `work_dir` found: `folder/auto/SESSION/IMAGE.json`, LabelMe files as in
 /// `marks/` of a study. A file that is there and differs is left alone.
 ///
 /// # Errors
@@ -102,8 +103,8 @@ impl Writer<'_> {
     }
 }
 
-/// Where LabelMe finds the picture, from the folder of the marks: on the card; beside the marks where people mark other
-/// pictures than those of the card.
+/// The path by which LabelMe opens the picture, from the folder of the marks: on the card, or beside the marks where people
+/// mark other pictures than those of the card.
 pub(crate) fn picture_for(folder: &Path, dir: &SessionDir, prepared: &Prepared, image: &str) -> String {
     let beside = || image.rsplit('/').next().unwrap_or(image).to_owned();
     let is_recorded = prepared.camera == prepared.marks_camera.1;
@@ -115,7 +116,7 @@ fn failed(path: &Path, source: io::Error) -> WriteMarksError {
     WriteMarksError::File { path: path.to_owned(), source }
 }
 
-/// Whether the file now holds this text; false where it held another.
+/// Whether the file now holds this text. A file that held another text is left alone.
 fn write_unless_other(path: &Path, text: &str) -> io::Result<bool> {
     match std::fs::read(path) {
         Ok(there) => return Ok(there == text.as_bytes()),
@@ -126,7 +127,7 @@ fn write_unless_other(path: &Path, text: &str) -> io::Result<bool> {
     Ok(true)
 }
 
-/// Writes aside and renames.
+/// Writes a file aside and renames it.
 pub(crate) fn write_whole(path: &Path, text: &str) -> io::Result<()> {
     let partial = path.with_extension("json.partial"); // half a file would be taken for marks
     let mut file = std::fs::File::create(&partial)?;
@@ -135,7 +136,7 @@ pub(crate) fn write_whole(path: &Path, text: &str) -> io::Result<()> {
     std::fs::rename(&partial, path)
 }
 
-/// The way from a folder to a file, with `/`; none where there is none (another drive), or the file is not there.
+/// The way from a folder to a file, with `/`; none where there is no way (another drive), or no such file.
 fn relative_path(folder: &Path, file: &Path) -> Option<String> {
     let (folder, file) = (folder.canonicalize().ok()?, file.canonicalize().ok()?);
     let shared = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();

@@ -1,4 +1,4 @@
-//! Files that are whole or not there: written aside in the same folder, synced, then renamed.
+//! Writes files that are either whole or not there: a file is written aside in the same folder, synced, and then renamed.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Write as _};
@@ -18,7 +18,7 @@ pub enum FileError {
     Create {
         /// The target.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
     /// Another process is writing the same file.
@@ -32,7 +32,7 @@ pub enum FileError {
     Write {
         /// The target.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
     /// The temporary file could not take the target's name.
@@ -40,7 +40,7 @@ pub enum FileError {
     Rename {
         /// The target.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
 }
@@ -53,13 +53,14 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
-/// Refuses what can never take a file's bytes.
+/// Refuses a target that can never take a file's bytes, because it is a folder.
 pub(crate) fn check(target: &Path) -> Result<(), FileError> {
     if target.is_dir() { Err(FileError::Folder { path: target.to_owned() }) } else { Ok(()) }
 }
 
-/// A file under construction beside its target, `.NAME.aim-batch-part`. Removed when it is dropped; one that a killed process
-/// left is used again, so that none pile up. Locked meanwhile, and the system drops the lock with the process.
+/// A file under construction beside its target, `.NAME.aim-batch-part`. It is removed when it is dropped before it was put in
+/// place. One that a killed process left is used again, so that none pile up. It is locked, and the system drops the lock with
+/// the process.
 pub(crate) struct Aside {
     file: File,
     path: PathBuf,
@@ -68,6 +69,8 @@ pub(crate) struct Aside {
 }
 
 impl Aside {
+    /// Opens and locks an empty file beside the target. Fails where the target is a folder, its folder cannot be written, or
+    /// another process is writing the same target.
     pub(crate) fn create(target: &Path) -> Result<Self, FileError> {
         check(target)?;
         let name = target.file_name().unwrap_or_default().to_string_lossy();
@@ -95,17 +98,17 @@ impl Aside {
         &self.file
     }
 
-    /// Makes the bytes durable.
+    /// Makes the bytes durable (fsync).
     pub(crate) fn sync(&self) -> Result<(), FileError> {
         self.file.sync_all().map_err(|source| FileError::Write { path: self.target.clone(), source })
     }
 
-    /// Gives a synced file its name.
+    /// Gives a synced file the name of its target, in place of an earlier file of that name.
     pub(crate) fn put_in_place(mut self) -> Result<(), FileError> {
         let renamed = |source| FileError::Rename { path: self.target.clone(), source };
         std::fs::rename(&self.path, &self.target).map_err(renamed)?;
         self.is_placed = true;
-        // The name itself survives a power cut only once the folder is synced; only Unix opens folders.
+        // The name itself survives a power cut only once the folder is synced, and only Unix can open folders.
         #[cfg(unix)]
         File::open(folder(&self.target)).and_then(|folder| folder.sync_all()).map_err(renamed)?;
         Ok(())
@@ -120,7 +123,7 @@ impl Drop for Aside {
     }
 }
 
-/// Whether the file that was locked still has that name: its holder may have given it its own in between.
+/// Whether the file that was locked still has that name: its last holder may have put it in place in between.
 #[cfg(unix)]
 fn is_still_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt as _;
@@ -134,10 +137,10 @@ fn is_still_at(_file: &File, _path: &Path) -> bool {
     true // an open file cannot be renamed there
 }
 
-/// Writes a whole file aside, makes it durable and renames it.
+/// Writes a whole file aside, makes it durable, and renames it.
 ///
 /// # Errors
-/// [`FileError`]; an earlier file of that name is then as it was.
+/// [`FileError`]; an earlier file of that name is then unchanged.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let aside = Aside::create(path)?;
     aside.file().write_all(bytes).map_err(|source| FileError::Write { path: path.to_owned(), source })?;

@@ -1,16 +1,16 @@
-//! A figure: a drawing with what a reader needs to understand it without the text around it.
+//! A figure: a drawing with the words that a reader needs to understand it alone.
 
 /// A drawing in SVG, ready for a page or a file of its own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Stem of its file name, for example `error_by_pitch`.
     pub name: String,
-    /// Heading, plain text.
+    /// Heading, as plain text.
     pub title: String,
-    /// What is drawn, of how many, and how its statistics are defined; plain text.
+    /// Caption, as plain text: the things that are drawn, their number, and the definitions of the statistics.
     pub caption: String,
-    /// What a reader who does not see it should know: what it shows, in a sentence or two; plain text.
+    /// Alternative text for readers who do not see the drawing: its content in a sentence or two, as plain text.
     pub alt: String,
-    /// The drawing, a whole `<svg>` element with a `viewBox`; ids in it begin with `name`.
+    /// The drawing, as a whole `<svg>` element with a `viewBox`. All ids in it begin with `name`.
     pub svg: String,
 }

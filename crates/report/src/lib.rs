@@ -1,18 +1,20 @@
-//! Results to Parquet, and results to error tables. Knows nothing of sessions or images on cards.
+//! Writes results to Parquet files, and makes tables, figures and a page from them. It knows nothing of sessions or images on
+//! cards.
 //!
 //! - [`ParquetSink`] takes the rows of a run and writes `results.parquet` and `frames.parquet`.
-//! - [`Results`] reads `results.parquet` back, with the metadata of its run; [`read_frames`] reads `frames.parquet`;
-//!   [`frames_file`] says where it is, and [`Results::read_flow`] counts its images.
-//! - [`write_truth`] and [`read_truth`]: `truth.parquet`, which lies beside a simulated study.
-//! - [`tables`] makes the tables that the study asks for; [`sizes`], [`error_by_pitch`] and [`error_by_height`] three more;
-//!   [`accuracy`], [`rater_agreement`] and [`methods`] hold sizes, raters and methods against the truth and each other;
-//!   [`flow`] and [`left_out`] tell what became of the images.
-//! - [`figures()`] draws the figures of a run as SVG, [`write_figures`] writes them; [`flow_bars`] is one of them for a terminal.
-//! - [`terminal`], [`csv()`], [`markdown`] and [`latex`] draw one [`Table`]; [`write_dir`] writes them all.
-//! - [`write_report`] writes the tables with a [`Page`]: `index.html`, which shows all of it, with [`Figure`]s and [`Pictures`].
-//! - [`compare`] holds the tables against a folder of expected ones: a gate for automatic runs.
+//! - [`Results`] reads `results.parquet` back, with the metadata of its run. [`read_frames`] reads `frames.parquet`, whose name
+//!   [`frames_file`] returns, and [`Results::read_flow`] counts its images.
+//! - [`write_truth`] writes `truth.parquet`, which lies beside a simulated study, and [`read_truth`] reads it.
+//! - [`tables`] makes the tables that the study asks for, and [`sizes`], [`error_by_pitch`] and [`error_by_height`] three more.
+//!   [`accuracy`], [`rater_agreement`] and [`methods`] compare sizes, raters and methods with the truth and with each other.
+//!   [`flow`] and [`left_out`] count the images that reach each step of the selection, and those that do not.
+//! - [`figures()`] draws the figures of a run as SVG, and [`write_figures`] writes them. [`flow_bars`] draws one of them for a
+//!   terminal.
+//! - [`terminal`], [`csv()`], [`markdown`] and [`latex`] turn one [`Table`] into text, and [`write_dir`] writes all tables.
+//! - [`write_report`] writes the tables and a [`Page`]: `index.html`, which shows all of it, with [`Figure`]s and [`Pictures`].
+//! - [`compare`] compares the tables with a folder of expected ones, as a gate for automatic runs.
 //!
-//! What each table is, its statistics and its CSV columns: docs/tables.md.
+//! docs/tables.md describes each table, its statistics and its CSV columns.
 #![warn(missing_docs)]
 
 mod atomic;

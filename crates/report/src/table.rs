@@ -1,19 +1,19 @@
-//! The one table that every renderer draws.
+//! The table that every renderer turns into text.
 
-/// A table: cells with types, so that a terminal, a CSV file and LaTeX show the same numbers.
+/// A table whose cells have types, so that a terminal, a CSV file and LaTeX show the same numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// Name of its files, without extension: `table_II`.
     pub stem: String,
-    /// Number in a publication's manner: `Table II`; none for tables that no study asked for.
+    /// Number in a publication's manner, such as `Table II`; none for tables that no study asked for.
     pub label: Option<String>,
-    /// Caption.
+    /// Caption, as plain text.
     pub title: String,
-    /// What the errors are and which mean and SD are given, in a sentence or two.
+    /// The definitions of the errors, means and SDs in the table, in a sentence or two.
     pub statistic: String,
-    /// Columns.
+    /// The columns.
     pub columns: Vec<Column>,
-    /// Rows, each with one cell per column.
+    /// The rows, each with one cell per column.
     pub rows: Vec<TableRow>,
     /// Footnotes with marks, in the order of the marks.
     pub footnotes: Vec<Footnote>,
@@ -23,37 +23,37 @@ pub struct Table {
     pub statement: Option<String>,
 }
 
-/// A column.
+/// A column of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
     /// Name in CSV, with the unit: `predicted_cm`.
     pub name: String,
     /// Heading for people; none for a column that only CSV has.
     pub heading: Option<String>,
-    /// Unit under the heading.
+    /// Unit, which stands under the heading.
     pub unit: Option<&'static str>,
-    /// What the column is for.
+    /// The purpose of the column.
     pub role: Role,
-    /// Alignment.
+    /// Alignment of its cells.
     pub align: Align,
-    /// How people see its numbers. CSV has up to six decimals of every number.
+    /// The form in which people see its numbers. CSV has up to six decimals of every number.
     pub format: Format,
-    /// Name of the column whose number follows after ±, where it has one.
+    /// Name of the column whose number follows after ±, where there is one.
     pub spread: Option<&'static str>,
 }
 
-/// What a column is for.
+/// The purpose of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// Says which row it is.
+    /// It identifies the row.
     Key,
-    /// A number to compare.
+    /// It holds numbers that are results.
     Result,
-    /// Words.
+    /// It holds words to read.
     Note,
 }
 
-/// Alignment of a column.
+/// Alignment of the cells of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Align {
     /// Left, for words.
@@ -62,7 +62,7 @@ pub enum Align {
     Right,
 }
 
-/// How numbers are shown to people.
+/// The form in which numbers are shown to people.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// With this many decimals.
@@ -71,34 +71,34 @@ pub enum Format {
     Shortest,
 }
 
-/// A row.
+/// A row of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TableRow {
-    /// What it stands for.
+    /// The kind of row.
     pub kind: RowKind,
-    /// Stands for the first shown cell, in rows of means.
+    /// In rows of means, the text that stands in place of the first cell that is shown.
     pub label: Option<String>,
     /// One cell per column.
     pub cells: Vec<Cell>,
-    /// Marks of its footnotes: letters.
+    /// Marks of its footnotes, which are letters.
     pub marks: Vec<String>,
 }
 
-/// What a row stands for.
+/// The kind of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RowKind {
-    /// A measurement.
+    /// One measurement.
     Row,
     /// Mean and SD of an object's errors.
     ObjectMean,
-    /// Mean and SD over the table; of numbers of images, their sums.
+    /// Mean and SD over the table; in tables of numbers of images, their sums.
     Overall,
-    /// The same, of errors against the truths that were printed.
+    /// Mean and SD over the table, of the errors against the true sizes that were printed.
     OverallPrintedTruth,
 }
 
 impl RowKind {
-    /// Its code in the CSV column `row`.
+    /// The code of the kind in the CSV column `row`.
     #[must_use]
     pub const fn code(self) -> &'static str {
         match self {
@@ -110,10 +110,10 @@ impl RowKind {
     }
 }
 
-/// A cell.
+/// A cell of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cell {
-    /// Nothing.
+    /// It holds nothing.
     Empty,
     /// Words.
     Text(String),
@@ -124,28 +124,28 @@ pub enum Cell {
 }
 
 impl Cell {
-    /// Words.
+    /// A cell of words.
     pub(crate) fn text(text: impl Into<String>) -> Self {
         Self::Text(text.into())
     }
 
-    /// A number, or nothing. Numbers that are not finite are nothing.
+    /// A cell with the number; an empty one where there is no number, or none that is finite.
     pub(crate) fn number(number: Option<f64>) -> Self {
         number.filter(|number| number.is_finite()).map_or(Self::Empty, Self::Number)
     }
 }
 
-/// A footnote.
+/// A footnote of a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Footnote {
     /// Its letter.
     pub mark: String,
-    /// What the reader must know.
+    /// Its text.
     pub text: String,
 }
 
 impl Column {
-    /// A column of words that says which row it is. Give it a heading to show it.
+    /// A column of words that identifies the row. People see it once it has a heading.
     pub(crate) fn key(name: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -158,7 +158,7 @@ impl Column {
         }
     }
 
-    /// A column of numbers with two decimals.
+    /// A column of results with two decimals. People see it once it has a heading.
     pub(crate) fn result(name: impl Into<String>, unit: &'static str) -> Self {
         Self {
             name: name.into(),
@@ -176,14 +176,17 @@ impl Column {
         Self { role: Role::Note, ..Self::key(NOTE) }
     }
 
+    /// The column as one of numbers with this unit.
     pub(crate) fn numbers(self, unit: &'static str) -> Self {
         Self { unit: Some(unit), align: Align::Right, ..self }
     }
 
+    /// The column with a heading, so that people see it.
     pub(crate) fn headed(self, heading: impl Into<String>) -> Self {
         Self { heading: Some(heading.into()), ..self }
     }
 
+    /// The column with a heading where it is to be `shown`.
     pub(crate) fn headed_if(self, shown: bool, heading: &str) -> Self {
         if shown { self.headed(heading) } else { self }
     }
@@ -192,6 +195,7 @@ impl Column {
         Self { format, ..self }
     }
 
+    /// The column with the numbers of another one after ±.
     pub(crate) fn with_spread(self, column: &'static str) -> Self {
         Self { spread: Some(column), ..self }
     }

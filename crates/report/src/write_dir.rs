@@ -1,4 +1,4 @@
-//! All tables into a folder.
+//! Writes all tables into a folder.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -12,7 +12,7 @@ use crate::tables::{
     accuracy, error_by_height, error_by_pitch, flow, left_out, methods, rater_agreement, sizes, tables,
 };
 
-/// Tables that could not be written.
+/// Why the tables could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
     /// The folder cannot be made.
@@ -20,10 +20,10 @@ pub enum WriteError {
     Folder {
         /// The folder.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
-    /// Two tables would take the same file.
+    /// Two tables would have the same file.
     #[error(
         "two tables would both be written to '{stem}.csv'; give each table of study.toml its own id (upper and lower case alone do not tell them apart)"
     )]
@@ -37,12 +37,12 @@ pub enum WriteError {
         /// The id.
         id: String,
     },
-    /// A figure of an earlier run is in the way.
+    /// A figure of an earlier run, which this run does not draw, could not be removed.
     #[error("this run has no data for a figure that an earlier one wrote, and its file cannot be removed; remove it: {}", path.display())]
     OldFigure {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
     /// A file could not be written.
@@ -50,9 +50,10 @@ pub enum WriteError {
     File(#[from] FileError),
 }
 
-/// Writes every table as .csv, .md and .tex (`table_II.csv`, ..., `sizes.csv`, `error_by_pitch.csv`,
-/// `error_by_height.csv`, `accuracy.csv`, `rater_agreement.csv` and `methods.csv` where there is something to compare, and `flow.csv` and `left_out.csv` where the ledger was read), and all of them as `tables.md`.
-/// Makes the folder if need be; every file is written aside and renamed.
+/// Writes every table as .csv, .md and .tex, and all of them as `tables.md`: `table_II.csv`, ..., `sizes.csv`,
+/// `error_by_pitch.csv`, `error_by_height.csv`, then `accuracy.csv`, `rater_agreement.csv` and `methods.csv` where there is
+/// something to compare, and `flow.csv` and `left_out.csv` where the ledger was read. Makes the folder where there is none;
+/// every file is written aside and renamed.
 ///
 /// # Errors
 /// [`WriteError`]. Ids are checked before anything is written.
@@ -60,7 +61,7 @@ pub fn write_dir(results: &Results, dir: &Path) -> Result<(), WriteError> {
     write_tables(results, &every_table(results), dir)
 }
 
-/// Writes `tables`, those of [`every_table`].
+/// Writes `tables`, which are those of [`every_table`].
 pub(crate) fn write_tables(results: &Results, tables: &[Table], dir: &Path) -> Result<(), WriteError> {
     check_names(results, tables)?;
     std::fs::create_dir_all(dir).map_err(|source| WriteError::Folder { path: dir.to_owned(), source })?;
@@ -73,7 +74,8 @@ pub(crate) fn write_tables(results: &Results, tables: &[Table], dir: &Path) -> R
     Ok(atomic::write(&dir.join("tables.md"), all_markdown(tables, results).as_bytes())?)
 }
 
-/// The tables of the study, the sizes, error by pitch and by height, validation, and what became of the images.
+/// All tables of a run: those of the study, the sizes, the errors by pitch and by height, the validation, and the flow of
+/// images.
 pub(crate) fn every_table(results: &Results) -> Vec<Table> {
     let mut tables = tables(results);
     tables.extend([sizes(results), error_by_pitch(results), error_by_height(results)]);
@@ -97,7 +99,7 @@ fn check_names(results: &Results, tables: &[Table]) -> Result<(), WriteError> {
     }
 }
 
-/// One document: the study's statement first, once.
+/// All tables as one Markdown document, with the study's statement once, at its head.
 fn all_markdown(tables: &[Table], results: &Results) -> String {
     let bare = |table: &Table| Table { statement: None, ..table.clone() };
     let texts: Vec<String> = tables.iter().map(|table| markdown(&bare(table))).collect();

@@ -1,4 +1,4 @@
-//! A whole report into a folder: tables, and the page that shows them with figures and pictures.
+//! Writes a whole report into a folder: the tables, and the page that shows them with figures and pictures.
 
 use std::path::{Path, PathBuf};
 
@@ -6,25 +6,26 @@ use crate::atomic::{self, FileError};
 use crate::page::{Page, PageError, PictureError};
 use crate::write_dir::{WriteError, every_table, write_tables};
 
-/// A report that could not be written.
+/// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// Its tables.
+    /// Its tables could not be written.
     #[error(transparent)]
     Tables(#[from] WriteError),
-    /// Its page.
+    /// Its page could not be made.
     #[error(transparent)]
     Page(#[from] PageError),
-    /// Its pictures.
+    /// Its pictures could not be written.
     #[error(transparent)]
     Pictures(#[from] PictureError),
-    /// One of its files.
+    /// Its page could not be written.
     #[error(transparent)]
     File(#[from] FileError),
 }
 
-/// Writes the tables as [`write_dir`](crate::write_dir()) does, and `index.html`. Returns the page's file. The page comes last:
-/// whoever opens a new one finds what it links to. It links each figure to `figures/NAME.svg`, which is the caller's to write.
+/// Writes the tables as [`write_dir`](crate::write_dir()) does, and then `index.html`. Returns the path of the page. The page is
+/// written last, so that all that a new page links to is there. It links each figure to `figures/NAME.svg`, which the caller
+/// writes.
 ///
 /// # Errors
 /// [`ReportError`].

@@ -1,4 +1,4 @@
-//! The simulated bench of docs/accuracy.md: sizes and their uncertainties against known truth.
+//! Runs the simulated bench of docs/accuracy.md, which compares sizes and their uncertainties with known truth.
 //!
 //!     cargo run -p aim-batch-simulate --example accuracy -- [SEED [SESSIONS [IMAGES]]]
 

@@ -1,4 +1,4 @@
-//! What can go wrong while a study is made.
+//! The errors that can occur while a study is made.
 
 use std::path::PathBuf;
 
@@ -10,14 +10,14 @@ pub enum SimulateError {
     /// An option is out of range.
     #[error("{option} {got}: expected {expected}")]
     Option {
-        /// Which option.
+        /// Name of the option.
         option: &'static str,
-        /// What it is.
+        /// Its value.
         got: String,
-        /// What it may be.
+        /// The values that are allowed.
         expected: String,
     },
-    /// The output folder holds something already.
+    /// The output folder is not empty.
     #[error("{} is not empty: name a folder that does not exist yet, or an empty one", path.display())]
     NotEmpty {
         /// The folder.
@@ -26,7 +26,7 @@ pub enum SimulateError {
     /// A file or folder cannot be read or written.
     #[error("cannot {action} {}: {source}", path.display())]
     Io {
-        /// What was tried.
+        /// The action that failed.
         action: &'static str,
         /// The file or folder.
         path: PathBuf,
@@ -72,16 +72,16 @@ pub enum SimulateError {
     /// Parts of a scene file do not go together.
     #[error("{fact}")]
     Scene {
-        /// Expected and got.
+        /// The fault, with the expected and the given values.
         fact: String,
     },
-    /// The camera of a scene is none.
+    /// The camera file of a scene does not describe a camera.
     #[error("the scene's camera: {0}")]
     SceneCamera(#[source] CameraSpecError),
     /// A camera cannot be written as TOML.
     #[error("the scene's camera cannot be written as TOML: {0}")]
     CameraText(#[source] toml::ser::Error),
-    /// The camera cannot be posed so.
+    /// The pose of a camera is not possible.
     #[error("{place}: {source}")]
     Pose {
         /// Session and image.
@@ -102,12 +102,12 @@ pub enum SimulateError {
     OutsidePicture {
         /// Session and object.
         place: String,
-        /// Column.
+        /// Column of the mark, in pixels.
         x: f64,
-        /// Row.
+        /// Row of the mark, in pixels.
         y: f64,
     },
-    /// The marks just made cannot be measured.
+    /// The marks of the study cannot be measured.
     #[error("{place}: {source}")]
     Measure {
         /// Session and object.
@@ -115,14 +115,14 @@ pub enum SimulateError {
         /// Why.
         source: MeasureError,
     },
-    /// The marks just made do not give back the published size.
+    /// The marks of the study do not give back the published size.
     #[error("{place}: the marks give {got_mm} mm instead of {expected_mm} mm")]
     NotBackSolved {
         /// Session, object and quantity.
         place: String,
         /// The published size.
         expected_mm: f64,
-        /// What the marks give, if anything.
+        /// The size that the marks give, if they give any.
         got_mm: f64,
     },
     /// A picture cannot be encoded.
@@ -143,7 +143,7 @@ pub enum SimulateError {
         /// Its height.
         height_px: u32,
     },
-    /// A time outside the range of the calendar.
+    /// A time lies outside the range of the calendar.
     #[error("{nanoseconds} ns since 1970 is not a time of the calendar")]
     Time {
         /// The time.

@@ -1,4 +1,4 @@
-//! A scene and a camera at a pose -> a picture.
+//! Renders pictures of a scene by a camera at a pose.
 
 use jpeg_encoder::{ColorType, Encoder, SamplingFactor};
 use model::{Camera, Pose};
@@ -8,32 +8,33 @@ use rayon::prelude::*;
 use crate::error::SimulateError;
 use crate::scene::{Colour, Part, Ray, Scene};
 
-/// Quality of the JPEG pictures, of 100.
+/// Quality of the JPEG pictures, from 1 to 100.
 pub(crate) const JPEG_QUALITY: u8 = 75;
 
-/// Sub-pixels along each side of a pixel that shows an edge.
+/// Number of sub-pixels along each side of a pixel that shows an edge.
 const EDGE_SUBPIXELS: u32 = 3;
 
-/// Draws pictures of one camera. The ray of every pixel is worked out once: the inverse of a lens costs more than the rest.
+/// A renderer of pictures by one camera. It computes the ray of every pixel once, since the inverse of a lens costs more than
+/// all the rest.
 pub struct Renderer {
     camera: Camera,
     /// Rays in the camera frame, row by row; none where the lens shows nothing.
     rays: Vec<Option<Vector3<f32>>>,
 }
 
-/// A picture: red, green and blue bytes, row by row.
+/// A picture of red, green and blue bytes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Picture {
-    /// Width.
+    /// Width in pixels.
     pub width_px: u32,
-    /// Height.
+    /// Height in pixels.
     pub height_px: u32,
-    /// The bytes.
+    /// The bytes: red, green and blue of each pixel, row by row.
     pub rgb: Vec<u8>,
 }
 
 impl Renderer {
-    /// A renderer for `camera`. It holds about 16 bytes per pixel.
+    /// A renderer for `camera`, which holds about 16 bytes per pixel.
     #[must_use]
     pub fn new(camera: Camera) -> Self {
         let [width, height] = camera.size_px();
@@ -48,7 +49,7 @@ impl Renderer {
         Self { camera, rays }
     }
 
-    /// The picture of `scene` from `pose`: one ray per pixel, and more where a pixel shows an edge between two parts.
+    /// The picture of `scene` from `pose`, with one ray per pixel, and more where a pixel shows an edge between two parts.
     #[must_use]
     pub fn render(&self, scene: &Scene, pose: &Pose) -> Picture {
         let [width_px, height_px] = self.camera.size_px();
@@ -73,7 +74,7 @@ impl Renderer {
     }
 }
 
-/// One picture being taken.
+/// A picture that is being taken.
 struct Shot<'a> {
     camera: &'a Camera,
     scene: &'a Scene,
@@ -89,7 +90,7 @@ impl Shot<'_> {
         })
     }
 
-    /// Mean colour over a grid of sub-pixels.
+    /// The mean colour over a grid of sub-pixels.
     #[expect(clippy::cast_precision_loss, reason = "a handful of sub-pixels")]
     fn supersampled(&self, x: u32, y: u32) -> Colour {
         let offsets = (0..EDGE_SUBPIXELS).map(|i| (f64::from(i) + 0.5) / f64::from(EDGE_SUBPIXELS) - 0.5);
@@ -105,8 +106,8 @@ impl Shot<'_> {
     }
 }
 
-/// Whether a pixel and one of its four neighbours show different parts. (Pixels at the left and right border compare
-/// with the end of the neighbouring row, which costs a few samples and harms nothing.)
+/// Whether a pixel and one of its four neighbours show different parts. (Pixels at the left and right border are compared
+/// with the end of the neighbouring row, which costs a few samples and does no harm.)
 fn is_edge(seen: &[(Part, Colour)], width: usize, at: usize) -> bool {
     let part = seen[at].0;
     [at.checked_sub(1), at.checked_add(1), at.checked_sub(width), at.checked_add(width)]
@@ -130,7 +131,7 @@ impl Picture {
         self.to_jpeg_of_quality(place, JPEG_QUALITY)
     }
 
-    /// The same of a quality from 1 to 100.
+    /// The picture as JPEG of a quality from 1 to 100, as [`Picture::to_jpeg`] makes it.
     ///
     /// # Errors
     /// [`SimulateError::TooLarge`] and [`SimulateError::Jpeg`].
@@ -140,7 +141,7 @@ impl Picture {
             return Err(SimulateError::TooLarge { place: place.to_owned(), width_px, height_px });
         };
         let mut bytes = Vec::new();
-        // Baseline with the standard Huffman tables and one scan, as cameras write it. With optimised tables this encoder
+        // The file is baseline with the standard Huffman tables and one scan, as cameras write it. With optimised tables this encoder
         // writes a scan per channel, which zune-jpeg 0.5.15 decodes wrongly when the chroma is subsampled.
         let mut encoder = Encoder::new(&mut bytes, quality);
         encoder.set_sampling_factor(SamplingFactor::F_2_2);

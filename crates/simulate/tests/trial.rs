@@ -1,10 +1,11 @@
-//! The simulated bench of docs/accuracy.md: what it must show.
+//! Tests of the simulated bench of docs/accuracy.md.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use aim_batch_simulate::trial::{Level, Line, Options, Score, Subject, run, score};
 use model::{InputSigma, Method, Quantity};
 
-/// Sessions that share a device are one draw: with fewer of them the coverage says little.
+/// Least number of claimed sizes of a line whose coverage is tested. Sessions that share a device are a single draw, so the
+/// coverage of fewer sizes says little.
 const FEWEST_CLAIMED: usize = 400;
 
 #[test]
@@ -41,7 +42,7 @@ fn intervals_cover_and_the_new_methods_are_better() {
     }
 }
 
-/// Every line of the document's table is one of the score's.
+/// Checks that every line of the document's table is one of the score.
 fn documented(score: &Score) {
     let document = include_str!("../../../docs/accuracy.md");
     let lines = document.lines().filter(|line| line.starts_with("| image |") || line.starts_with("| session |"));
@@ -59,7 +60,7 @@ fn the_same_options_give_the_same_sizes() {
     assert_ne!(run(&options), run(&Options { seed: 2, ..options }));
 }
 
-/// Without errors of devices and raters the exact methods are exact, but for the range's millimetres.
+/// Without errors of devices and raters the exact methods are exact, apart from the rounding of the range to millimetres.
 #[test]
 fn without_errors_sizes_are_right() {
     let trials = run(&Options { sessions: 30, images: 2, sigma: InputSigma::NONE, seed: 5 });
@@ -70,7 +71,7 @@ fn without_errors_sizes_are_right() {
         let exact = match trial.method {
             Method::Coaxial => true,
             Method::Ray => upright || plate,
-            // Two pitches that are near each other magnify those millimetres: crates/model/tests/fusion.rs has its exactness.
+            // Two pitches that are near each other magnify that rounding; crates/model/tests/fusion.rs tests the exactness of `joint`.
             Method::Paper | Method::Joint | Method::Best => false,
         };
         if exact {

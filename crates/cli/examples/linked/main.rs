@@ -1,4 +1,5 @@
-//! Containers found without marks in a simulated study, session by session, against its truth (docs/rims.md).
+//! Compares the containers that were found without marks in a simulated study with its truth, session by session
+//! (docs/rims.md).
 //!
 //! ```text
 //! aim-batch simulate worn -o STUDY
@@ -23,10 +24,10 @@ use pipeline::labelme;
 use sums::Sums;
 use truth::{Seen, Truth};
 
-/// Rater of what the program found itself.
+/// The rater of the rims that the program found itself.
 const AUTO: &str = "auto";
 
-/// A rim that was found: its name in its session, and the container that it is of.
+/// A found rim: its name in its session, and the container whose rim it is, if it is one's.
 struct Sighting {
     name: String,
     kind: Kind,
@@ -71,7 +72,7 @@ fn compare(study: &Path, results: &Path, marks: &Path, sums: &mut Sums) -> anyho
     Ok(())
 }
 
-/// What was found in one image, by the file that was written of it.
+/// The rims that were found in one image, read from its file of marks.
 fn in_image(file: &Path, seen: &Seen) -> anyhow::Result<Vec<Sighting>> {
     let marks = labelme::parse(&labelme::read_bytes(file)?, file, seen.view.camera().size_px())?;
     let found = marks.objects.iter().filter_map(|object| Some((object, marks.found.get(&object.object)?)));
@@ -80,7 +81,7 @@ fn in_image(file: &Path, seen: &Seen) -> anyhow::Result<Vec<Sighting>> {
         .collect())
 }
 
-/// One line about a container, and its part of the sums.
+/// Prints one line about a container, and adds the container to the sums.
 fn container(session: &str, object: &truth::Object, sightings: &[Sighting], rows: &[&ResultRow], sums: &mut Sums) {
     let of: Vec<&Sighting> = sightings.iter().filter(|s| s.of.as_deref() == Some(&object.name)).collect();
     let mut names: BTreeMap<&str, usize> = BTreeMap::new();

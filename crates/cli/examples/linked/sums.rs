@@ -1,4 +1,4 @@
-//! Sums over all containers.
+//! Sums over the containers of all studies.
 
 use std::fmt::{Display, Formatter};
 
@@ -13,7 +13,7 @@ pub struct Sums {
     names: usize,
     rims: usize,
     kinds: usize,
-    /// Names of one, of several, and of no container.
+    /// Numbers of names whose rims are of one, of several, and of no container.
     of_one: usize,
     of_several: usize,
     of_none: usize,
@@ -24,9 +24,9 @@ pub struct Sums {
 /// A fused diameter.
 struct Fused {
     error_pct: f64,
-    /// In its standard uncertainties.
+    /// The absolute error, in units of the predicted standard uncertainty.
     off: f64,
-    /// Height of its plane.
+    /// The absolute error of the height of the rim's plane.
     height_mm: f64,
     height_pct: f64,
     true_kind: Kind,
@@ -34,7 +34,7 @@ struct Fused {
 }
 
 impl Sums {
-    /// A name that rims of so many containers have.
+    /// Adds a name that rims of so many containers have.
     pub fn name(&mut self, containers: usize) {
         match containers {
             0 => self.of_none += 1,
@@ -43,7 +43,7 @@ impl Sums {
         }
     }
 
-    /// A container with so many names, rims that were found, and of those with the right kind.
+    /// Adds a container with so many names, found rims, and found rims of the right kind.
     pub fn container(&mut self, names: usize, rims: usize, kinds: usize) {
         self.containers += 1;
         self.found += usize::from(names > 0);
@@ -52,12 +52,12 @@ impl Sums {
         self.kinds += kinds;
     }
 
-    /// A diameter in one image.
+    /// Adds a diameter that was measured in one image.
     pub fn frame(&mut self, row: &ResultRow, object: &Object) {
         self.frames.extend(row.predicted_mm.map(|mm| 100.0 * (mm / object.diameter_mm - 1.0).abs()));
     }
 
-    /// The fused diameter of a container's most frequent name; what to tell of it.
+    /// Adds the fused diameter of a container's most frequent name, and returns a text about it.
     pub fn fused(&mut self, row: &ResultRow, object: &Object) -> String {
         let (Some(mm), Some(sigma_mm), Some(height_mm)) = (row.predicted_mm, row.sigma_mm, row.plane_z_mm) else {
             return "not measured".to_owned();
@@ -107,7 +107,7 @@ fn ratio(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64
 }
 
-/// Median, 95th per cent and greatest.
+/// Median, 95 % quantile, and greatest of the values as text.
 fn quantiles_text(mut values: Vec<f64>) -> String {
     values.sort_by(f64::total_cmp);
     let Some(worst) = values.last() else { return "none".to_owned() };

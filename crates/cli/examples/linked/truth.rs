@@ -1,4 +1,4 @@
-//! What stands where in the images of a simulated study.
+//! The true places of the containers in the images of a simulated study.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -16,7 +16,7 @@ pub struct Object {
     pub name: String,
     pub kind: Kind,
     pub diameter_mm: f64,
-    /// Height at which its rim is widest.
+    /// Height above the table at which its rim is widest.
     pub level_mm: f64,
 }
 
@@ -35,7 +35,7 @@ pub struct Seen {
 }
 
 impl Seen {
-    /// The container whose rim, or the inner edge of it, was found.
+    /// The container whose rim, or its inner edge, these marks follow; none where they follow no container's.
     pub fn container_of(&self, marks: &ObjectMarks) -> Option<String> {
         let off = |place: &Place| {
             let points = marks.marks.iter().flat_map(|mark| mark.points_px().iter().copied());
@@ -52,7 +52,7 @@ impl Seen {
 
 /// The truth of a study.
 pub struct Truth {
-    /// Images by session and file.
+    /// The images by session and file.
     pub sessions: BTreeMap<String, BTreeMap<String, Seen>>,
     objects: BTreeMap<(String, String), Object>,
 }

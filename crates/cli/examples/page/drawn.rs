@@ -1,4 +1,4 @@
-//! A drawn table with a plate, and its marks.
+//! A drawn picture of a table with a plate, and marks on it.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -9,10 +9,10 @@ use model::{Feature, GalleryMark, GalleryPicture, PictureView, ResultRow};
 
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 480;
-/// Centre and half axes of the plate's rim, in px.
+/// Centre (x, y) and half axes (along x, along y) of the plate's rim, in px.
 const RIM_PX: [f64; 4] = [320.0, 250.0, 190.0, 130.0];
 
-/// The same picture for every image.
+/// The picture that stands for every image.
 pub struct Scene {
     jpeg: Vec<u8>,
     first: bool,
@@ -25,7 +25,7 @@ impl Scene {
         Ok(Self { jpeg: jpeg.into_inner(), first: true })
     }
 
-    /// Pictures of the images that rows of a session were measured on.
+    /// The pictures of the images that the rows of a session were measured on.
     pub fn pictures(&mut self, rows: &[ResultRow]) -> Vec<GalleryPicture> {
         let mut marked: BTreeMap<(&str, &str), Vec<&ResultRow>> = BTreeMap::new();
         for row in rows {

@@ -57,7 +57,7 @@ fn write_results(study: &Study, out: &Path) -> anyhow::Result<Results> {
     Ok(results)
 }
 
-/// One picture per measured image, and for the first of them two views more.
+/// Writes one picture per measured image, and for the first of them two more views.
 fn write_pictures(study: &Study, report: &Path) -> anyhow::Result<Pictures> {
     let mut pictures = Pictures::new(report);
     let mut scene = drawn::Scene::new()?;

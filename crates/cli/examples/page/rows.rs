@@ -1,29 +1,29 @@
-//! Study-up rows.
+//! Made-up rows.
 
 use model::{
     FrameReason, FrameRow, Kind, Level, Method, Problem, Quantity, ResultRow, RunLog, RunMetadata, SessionStatus,
     Severity, Stage, UtcNs,
 };
 
-/// Rows of a study, session by session, with what its results file says of it.
+/// The rows of a study, session by session, with the metadata and the times of its run.
 pub struct Study {
     pub sessions: Vec<(Vec<ResultRow>, Vec<FrameRow>)>,
     pub metadata: RunMetadata,
     pub log: RunLog,
 }
 
-/// What a study is made of.
+/// The names and numbers that a study is made from.
 struct Plan<'a> {
     study: &'a str,
     sessions: Vec<String>,
     objects: &'a [&'a str],
     raters: &'a [&'a str],
-    /// Images of a session, and those of them that are marked.
+    /// Number of images of a session; `marked` of them are marked.
     images: u32,
     marked: u32,
 }
 
-/// Names that mean something to HTML, JSON, CSS and file systems.
+/// A small study whose names mean something to HTML, JSON, CSS and file systems.
 pub fn small() -> Study {
     study(&Plan {
         study: "<script>alert(1)</script>",
@@ -42,7 +42,7 @@ pub fn small() -> Study {
     })
 }
 
-/// 10,000 measurements, 50,000 images.
+/// A study of 10,000 measurements and 50,000 images.
 pub fn large() -> Study {
     study(&Plan {
         study: "large",
@@ -89,7 +89,7 @@ fn status(name: &str, place: usize, results: &[ResultRow], frames: &[FrameRow]) 
     let problem = |severity: Severity| Problem {
         severity,
         stage: Stage::Ingest,
-        code: "packet_damaged".to_owned(),
+        code: model::ProblemCode::BadBlocks,
         place: format!("cards/{name}/SENSORS/ACC.BIN"),
         fact: "expected 1022 samples <in> a packet, got 511".to_owned(),
         remedy: "copy the card again & run again".to_owned(),

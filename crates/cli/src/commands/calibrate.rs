@@ -1,4 +1,4 @@
-//! `calibrate`: what a bench with known sizes tells of a device.
+//! `calibrate`: learns the corrections of a device from a bench with objects of known size.
 
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
@@ -14,7 +14,7 @@ use super::{PROGRAM, outcome, print, print_message, stop_on_signals, survey_fail
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
-/// `calibrate`.
+/// The arguments of `calibrate`.
 #[derive(Debug, clap::Args)]
 pub struct CalibrateArgs {
     /// Folder of the study (docs/study.md), with true sizes in objects.csv; nothing is written into it
@@ -27,7 +27,8 @@ pub struct CalibrateArgs {
     pub jobs: Option<NonZeroUsize>,
 }
 
-/// Learns, prints a table, and writes the file.
+/// Learns the corrections, prints a table of the errors before and after them, and writes the calibration file. Fails where
+/// nothing could be learned.
 pub fn run(args: &CalibrateArgs, bars: &Bars) -> Result<Outcome, Failure> {
     if args.out.extension().is_none_or(|extension| extension != "toml") {
         return Err(Failure::Usage(anyhow!("--out {}: expected a name that ends in .toml", args.out.display())));
@@ -49,7 +50,7 @@ pub fn run(args: &CalibrateArgs, bars: &Bars) -> Result<Outcome, Failure> {
     Ok(outcome(sessions.iter().any(SessionStatus::has_losses)))
 }
 
-/// What was learned, with the errors before and after.
+/// A table of the errors before and after, and below it the corrections that were learned, for people.
 fn text(file: &CalibrationFile) -> String {
     let mut text = String::new();
     let _ = writeln!(

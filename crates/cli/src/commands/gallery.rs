@@ -1,4 +1,4 @@
-//! Pictures for the page of a report, from the work folder of the run that gave the results.
+//! Takes the pictures for the page of a report from the work folder of the run that gave the results.
 
 use model::GallerySink;
 use pipeline::{GalleryError, GalleryHalted, GalleryOptions, NotShown, Reporter};
@@ -6,11 +6,11 @@ use pipeline::{GalleryError, GalleryHalted, GalleryOptions, NotShown, Reporter};
 use super::print_message;
 use crate::exit::Failure;
 
-/// More of them are counted, not listed.
+/// Number of missing pictures that are listed. More are only counted.
 const LISTED: usize = 5;
 
-/// Hands all pictures of the sessions to `sink`. Gives whether some could not be shown; where there is no work folder the
-/// report does without, and says so.
+/// Hands all pictures of the sessions to `sink`, and returns whether some could not be shown. Where there is no work folder,
+/// the report has no pictures, and a message says so.
 pub fn gallery_into<S: GallerySink>(
     options: &GalleryOptions<'_>,
     progress: &dyn Reporter,

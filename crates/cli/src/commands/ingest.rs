@@ -1,4 +1,4 @@
-//! `ingest`: one card to one MCAP file.
+//! `ingest`: makes one MCAP file from one card.
 
 use ::ingest::{Profile, SessionSource, camera, ingest_session};
 use anyhow::{Context, anyhow};
@@ -9,7 +9,7 @@ use super::{PROGRAM, outcome, print, print_message};
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
-/// `ingest`.
+/// The arguments of `ingest`.
 #[derive(Debug, clap::Args)]
 pub struct IngestArgs {
     /// Folder of the card as it was copied
@@ -34,7 +34,7 @@ pub struct IngestArgs {
     pub clock_zero: Option<jiff::Timestamp>,
 }
 
-/// Ingests, and tells what was found and what was lost.
+/// Ingests the card, prints the numbers of images and samples, and writes to stderr what was lost.
 pub fn run(args: &IngestArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let session = args.card.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
     let source = SessionSource {

@@ -1,4 +1,4 @@
-//! One file per command.
+//! The commands: one module for each, with its arguments, and the parts that several of them share.
 
 pub mod calibrate;
 pub mod check;
@@ -27,12 +27,12 @@ use pipeline::{Stop, SurveyError};
 use crate::exit::{Failure, Outcome};
 use crate::signals;
 
-/// Program and version, for provenance.
+/// Name and version of the program, for the provenance of results.
 pub const PROGRAM: &str = concat!("aim-batch ", env!("CARGO_PKG_VERSION"));
-/// Commit that it was built from, where git knew.
+/// The commit that the program was built from, where git knew it.
 pub const COMMIT: Option<&str> = option_env!("AIM_BATCH_COMMIT");
 
-/// Writes results to stdout. A reader that has gone (`aim-batch ... | head`) does not stop what is still to be done.
+/// Writes results to stdout. A reader that has gone (`aim-batch ... | head`) does not stop the work that is left.
 fn print(text: &str) -> io::Result<()> {
     match io::stdout().write_all(text.as_bytes()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
@@ -40,14 +40,14 @@ fn print(text: &str) -> io::Result<()> {
     }
 }
 
-/// Writes what the user should know to stderr. A stderr that is closed or full changes neither what is done nor the exit code:
+/// Writes a message for the user to stderr. A stderr that is closed or full changes neither the work nor the exit code, since
 /// there is nowhere to complain.
 fn print_message(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
 }
 
-/// The tables of a run, as wide as the terminal, if stdout is one: those that the study asks for, or the sizes if it asks for none,
-/// then the errors by pitch and height, and what became of the images, with the flow once more as bars.
+/// The tables of a run as text, as wide as the terminal where stdout is one: the tables that the study asks for (the sizes
+/// where it asks for none), the errors by pitch and by height, and the flow of images, as tables and as bars.
 fn tables_text(results: &::report::Results) -> String {
     let mut tables = ::report::tables(results);
     if tables.is_empty() {
@@ -60,7 +60,7 @@ fn tables_text(results: &::report::Results) -> String {
     as_wide_as_the_terminal(&tables) + &bars.unwrap_or_default()
 }
 
-/// What became of the images.
+/// The tables of the flow of images: the steps, and the reasons for which images are left out.
 fn flow_tables(results: &::report::Results) -> impl Iterator<Item = ::report::Table> {
     [::report::flow_in_short(results), ::report::left_out(results)].into_iter().flatten()
 }
@@ -69,19 +69,19 @@ fn as_wide_as_the_terminal(tables: &[::report::Table]) -> String {
     ::report::terminal_set(tables, terminal_width())
 }
 
-/// Columns of stdout, if it is a terminal.
+/// Width of stdout in columns, where it is a terminal.
 fn terminal_width() -> Option<usize> {
     terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0))
 }
 
-/// A wish to stop that signals set, from now on.
+/// A flag that SIGINT and SIGTERM set from now on. Fails where the system refuses the handlers.
 fn stop_on_signals() -> Result<Stop, Failure> {
     let stop = Stop::default();
     signals::watch(&stop).context("cannot listen for signals")?;
     Ok(stop)
 }
 
-/// A survey's error, for the exit code.
+/// The failure that stands for a survey's error: a signal, or any other one.
 fn survey_failure(error: SurveyError) -> Failure {
     match error {
         SurveyError::Stopped { signal } => Failure::Stopped(signal, error.into()),
@@ -89,7 +89,7 @@ fn survey_failure(error: SurveyError) -> Failure {
     }
 }
 
-/// The outcome of a command that may have lost something.
+/// The outcome of a command that finished and may have lost something.
 fn outcome(lost: bool) -> Outcome {
     if lost { Outcome::WithLosses } else { Outcome::Well }
 }

@@ -1,4 +1,4 @@
-//! The folder of a report: tables, figures, pictures, and the page that shows them.
+//! Writes the folder of a report: tables, figures, pictures, and the page that shows them.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -12,27 +12,28 @@ use super::gallery::gallery_into;
 use crate::exit::Failure;
 use crate::progress::Bars;
 
-/// Where a report comes from.
+/// The files that a report is made from, and the limits of the work on it.
 pub struct Source<'a> {
     /// The file of the results.
     pub out: &'a Path,
     /// The work folder of their run, whose recordings hold the pictures.
     pub work_dir: &'a Path,
-    /// Pictures at a time; none for the cores that this process may use.
+    /// Number of pictures that are worked on at a time; none for the number of cores that this process may use.
     pub jobs: Option<NonZeroUsize>,
-    /// Bound of the decoded pictures in memory at once.
+    /// Upper bound of the decoded pictures that are in memory at once, in bytes.
     pub image_memory_bytes: u64,
     pub stop: Stop,
 }
 
-/// What was written.
+/// A report that was written.
 pub struct Written {
     pub page: PathBuf,
-    /// Whether pictures are missing that should be there; which, has been told.
+    /// Whether pictures are missing that should be there. Messages have said which.
     pub lost: bool,
 }
 
-/// Writes the report of `results` into `dir`.
+/// Writes the report of `results` into `dir`, which need not exist. Fails where a file cannot be read or written, or a signal
+/// came.
 pub fn write(results: &Results, source: Source<'_>, dir: &Path, bars: &Bars) -> Result<Written, Failure> {
     let log = read_run_log(&run_file(source.out), &results.metadata);
     // Without a ledger that belongs to the results there are no figures of images.

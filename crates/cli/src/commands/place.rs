@@ -1,4 +1,4 @@
-//! Where a run may write: not over the ledger of another run, and not among the cards and marks.
+//! The places where a run may write: not over the ledger of another run, and not among the cards and marks.
 
 use std::path::{Path, PathBuf};
 
@@ -28,7 +28,7 @@ impl PlaceArgs {
     }
 }
 
-/// What is wrong with the name of the output.
+/// Refuses an output whose name does not end in `.parquet`, has nothing before it, or is that of the ledger of another output.
 pub fn check_name(out: &Path) -> Result<(), Failure> {
     let refuse = |fact: &str| Err(Failure::Usage(anyhow!("--out {}: {fact}", out.display())));
     if out.extension().is_none_or(|extension| extension != "parquet") {
@@ -44,7 +44,8 @@ pub fn check_name(out: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is written among the cards would be taken for a session, or for a file of a card, by the next run.
+/// Refuses an output or a work folder among the cards or marks: the next run would take it for a session, or for a file of a
+/// card.
 pub fn check_apart(place: &PlaceArgs, study: &Study) -> Result<(), Failure> {
     for (option, path) in [("--out", &place.out), ("--work", &place.work_dir())] {
         for part in ["cards", "marks"] {
@@ -54,7 +55,8 @@ pub fn check_apart(place: &PlaceArgs, study: &Study) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether marks may be written there: not on cards; and only those that the program finds.
+/// Refuses a folder for the marks of found rims that is a file or lies among the cards, and any where the settings do not ask
+/// for rims to be found.
 pub fn check_marks(folder: &Path, study: &Study) -> Result<(), Failure> {
     let refuse = |fact: &str| Err(Failure::Usage(anyhow!("--write-marks {}: {fact}", folder.display())));
     if !study.spec.marks.source.searches() {
@@ -67,7 +69,7 @@ pub fn check_marks(folder: &Path, study: &Study) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether something may be written there: not in this part of the study.
+/// Refuses the value `path` of the flag `option` where it lies in this part of the study (`cards`, `marks`).
 pub fn check_outside(option: &str, path: &Path, study: &Study, part: &str) -> Result<(), Failure> {
     let whole = whole(path);
     if study.dir.join(part).canonicalize().is_ok_and(|part| whole.starts_with(part)) {
@@ -77,7 +79,7 @@ pub fn check_outside(option: &str, path: &Path, study: &Study, part: &str) -> Re
     Ok(())
 }
 
-/// A path with links followed as far as it exists.
+/// The absolute path, with links followed as far as it exists.
 fn whole(path: &Path) -> PathBuf {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let there =

@@ -1,13 +1,13 @@
-//! Problems for people: those of one kind together.
+//! Problems as text for people: those of one kind together.
 
 use std::fmt::Write as _;
 
 use model::Problem;
 
-/// Problems with one stage and code, each with what stands before it; never empty.
+/// Problems with the same stage and code, each with the label that stands before it. It is never empty.
 pub type Kind<'a> = Vec<(String, &'a Problem)>;
 
-/// Problems of one kind together, in the order of the first of each.
+/// The problems, grouped by kind, in the order of the first one of each kind.
 pub fn kinds<'a>(problems: impl Iterator<Item = (String, &'a Problem)>) -> Vec<Kind<'a>> {
     let mut kinds: Vec<Kind<'a>> = Vec::new();
     for (label, problem) in problems {
@@ -19,7 +19,7 @@ pub fn kinds<'a>(problems: impl Iterator<Item = (String, &'a Problem)>) -> Vec<K
     kinds
 }
 
-/// Appends the first problem of a kind and how many more there are, every line after `indent`.
+/// Appends the first problem of a kind, and the number of the others. Every line begins with `indent`.
 pub fn describe(text: &mut String, indent: &str, kind: &Kind<'_>) {
     let Some((label, problem)) = kind.first() else { return };
     let Problem { stage, code, place, fact, remedy, .. } = problem;

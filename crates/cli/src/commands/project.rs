@@ -1,4 +1,4 @@
-//! `project`: one CSV in, one out.
+//! `project`: reads a CSV of points from stdin, and writes one with the projected points to stdout.
 
 use std::io;
 
@@ -10,7 +10,7 @@ use super::view::PoseArgs;
 use super::{outcome, print_message, view};
 use crate::exit::{Failure, Outcome};
 
-/// `project`.
+/// The arguments of `project`.
 #[derive(Debug, clap::Args)]
 pub struct ProjectArgs {
     /// Where the camera is
@@ -27,10 +27,10 @@ pub struct ProjectArgs {
 const PIXEL_COLUMNS: [&str; 2] = ["x", "y"];
 const WORLD_COLUMNS: [&str; 2] = ["world_x_mm", "world_y_mm"];
 
-/// More points without an answer than this are counted, not told one by one.
-const WARNINGS_TOLD: usize = 20;
+/// Number of points without an answer that have a message of their own. More are only counted.
+const WARNINGS_SHOWN: usize = 20;
 
-/// Projects every row of stdin.
+/// Projects every row of stdin. A row without an answer keeps its place, with empty cells, and is a loss.
 pub fn run(args: &ProjectArgs) -> Result<Outcome, Failure> {
     let view = view::from_args(&args.pose)?;
     let (from, to) = if args.inverse { (WORLD_COLUMNS, PIXEL_COLUMNS) } else { (PIXEL_COLUMNS, WORLD_COLUMNS) };
@@ -47,7 +47,7 @@ pub fn run(args: &ProjectArgs) -> Result<Outcome, Failure> {
             Ok([a, b]) => writer.write_record([texts[0], texts[1], &a.to_string(), &b.to_string()])?,
             Err(why) => {
                 lost += 1;
-                if lost <= WARNINGS_TOLD {
+                if lost <= WARNINGS_SHOWN {
                     print_message(&format!("warning: row {row}: no answer for ({}, {}): {why}\n", texts[0], texts[1]));
                 }
                 writer.write_record([texts[0], texts[1], "", ""])?;
@@ -55,8 +55,8 @@ pub fn run(args: &ProjectArgs) -> Result<Outcome, Failure> {
         }
     }
     writer.flush().context("cannot write to standard output")?;
-    if lost > WARNINGS_TOLD {
-        print_message(&format!("warning: {} more points have no answer\n", lost - WARNINGS_TOLD));
+    if lost > WARNINGS_SHOWN {
+        print_message(&format!("warning: {} more points have no answer\n", lost - WARNINGS_SHOWN));
     }
     Ok(outcome(lost > 0))
 }

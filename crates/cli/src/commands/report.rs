@@ -1,4 +1,4 @@
-//! `report`: tables and page again, from the files that `run` wrote.
+//! `report`: makes tables and page again, from the files that `run` wrote.
 
 use std::io;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use super::{outcome, page, print, print_message, stop_on_signals, tables_text};
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
-/// `report`.
+/// The arguments of `report`.
 #[derive(Debug, clap::Args)]
 pub struct ReportArgs {
     /// results.parquet of a run; the ledger of images, frames.parquet, is looked for beside it
@@ -22,10 +22,10 @@ pub struct ReportArgs {
     pub work: Option<PathBuf>,
 }
 
-/// Decoded pictures in memory at once: what `run --memory` is by default.
+/// Upper bound of the decoded pictures that are in memory at once: the default of `run --memory`.
 const PICTURE_MEMORY_BYTES: u64 = 256 << 20;
 
-/// Prints the tables, and writes the report when a folder is given.
+/// Prints the tables, and writes the report where a folder is given.
 pub fn run(args: &ReportArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let mut results = Results::read(&args.results)?;
     let mut lost = read_flow(&mut results, args)?;
@@ -47,7 +47,8 @@ pub fn run(args: &ReportArgs, bars: &Bars) -> Result<Outcome, Failure> {
     Ok(outcome(lost))
 }
 
-/// Whether the images could not be counted although their ledger is there. The other tables do not need it.
+/// Adds the flow of images to the results, and returns whether it is lost: the ledger is there but cannot be used. The other
+/// tables do not need it.
 fn read_flow(results: &mut Results, args: &ReportArgs) -> io::Result<bool> {
     let frames = frames_file(&args.results);
     match results.read_flow(&frames) {

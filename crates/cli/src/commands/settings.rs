@@ -1,12 +1,12 @@
-//! Settings of a study from the command line.
+//! Settings of a study that the command line gives.
 
 use std::path::{Path, PathBuf};
 
 use model::Method;
 use pipeline::Study;
 use pipeline::calibration::CalibrationFile;
-use pipeline::rims::RimShape;
 use pipeline::study::{MarksSource, StudySpec};
+use rims::RimShape;
 
 use crate::exit::Failure;
 
@@ -34,7 +34,7 @@ pub struct SettingsArgs {
     pub calibration: Option<PathBuf>,
 }
 
-/// The study with these settings, and its calibration.
+/// The study in the folder `study`, with these settings and this calibration. Fails where a file of either cannot be used.
 pub fn load(study: &Path, args: &SettingsArgs) -> Result<Study, Failure> {
     let study = Study::load(study, |spec| apply(args, spec)).map_err(Failure::usage)?;
     match &args.calibration {
@@ -43,7 +43,7 @@ pub fn load(study: &Path, args: &SettingsArgs) -> Result<Study, Failure> {
     }
 }
 
-/// Flags and environment win over study.toml.
+/// Puts the settings that were given (by flag or environment) in place of those of study.toml.
 fn apply(args: &SettingsArgs, spec: &mut StudySpec) {
     if !args.method.is_empty() {
         spec.measure.methods.clone_from(&args.method);

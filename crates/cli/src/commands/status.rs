@@ -1,4 +1,4 @@
-//! `status`: what a run has done, and what it would do.
+//! `status`: shows what a run has done, and what another would do.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ use super::settings::SettingsArgs;
 use super::{COMMIT, PROGRAM, print, settings};
 use crate::exit::{Failure, Outcome};
 
-/// `status`.
+/// The arguments of `status`.
 #[derive(Debug, clap::Args)]
 pub struct StatusArgs {
     /// Folder of the study (docs/study.md)
@@ -32,10 +32,10 @@ pub struct StatusArgs {
     pub settings: SettingsArgs,
 }
 
-/// Rises when a key is removed, renamed, or changes its meaning.
+/// Version of the JSON. It rises when a key is removed, renamed, or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
 
-/// Tells it.
+/// Prints the state of the study's sessions, as text or as JSON.
 pub fn run(args: &StatusArgs) -> Result<Outcome, Failure> {
     let study = settings::load(&args.study, &args.settings)?;
     let work_dir = args.place.work_dir();

@@ -1,4 +1,4 @@
-//! What a run did and what it lost, at its end.
+//! The summary at the end of a run: its work, its losses and its files.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -10,17 +10,17 @@ use super::print_message;
 use super::problems::{describe, kinds};
 use crate::logging::LogFormat;
 
-/// More kinds of problems than this are counted, not listed: all of it fits on a screen. All are in the results file.
+/// Number of kinds of problems that are listed, so that the summary fits on a screen. The results file has all of them.
 const KINDS_LISTED: usize = 5;
 
-/// What is told.
+/// A run that has finished.
 pub struct Finished<'a> {
     pub ran: &'a Ran,
     pub files: &'a [PathBuf],
     pub work_dir: &'a Path,
 }
 
-/// Tells on stderr, or as an event of the log where that is JSON (each problem has been one already).
+/// Writes the summary to stderr, or as one event of the log where the log is JSON (each problem has been an event already).
 pub fn print_summary(finished: &Finished<'_>, format: LogFormat) {
     let Ran { sessions, done, wrote, stages, seconds } = finished.ran;
     let count = |count: fn(&SessionStatus) -> usize| sessions.iter().map(count).sum::<usize>();
@@ -59,7 +59,7 @@ pub fn print_summary(finished: &Finished<'_>, format: LogFormat) {
     print_message(&text);
 }
 
-/// Seconds by stage.
+/// A line with the seconds of the run and of each stage.
 fn work(ran: &Ran) -> String {
     let of_stage = |stage: &StageLog| {
         let StageLog { stage, done, kept, failed, seconds } = stage;
@@ -73,7 +73,7 @@ fn work(ran: &Ran) -> String {
     format!("{:.1} s in all; {}\n", ran.seconds, stages.join(", "))
 }
 
-/// Problems of one kind together, those of failed sessions first.
+/// The problems as text, those of one kind together and those of failed sessions first.
 fn problems(sessions: &[SessionStatus]) -> String {
     let in_order = |failed: bool| sessions.iter().filter(move |session| session.failed == failed);
     let labelled = |session: &'_ SessionStatus| {

@@ -1,4 +1,4 @@
-//! A camera at a pose, from the command line.
+//! A camera at a pose, as the command line gives it.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use model::{Pose, View};
 
 use crate::exit::Failure;
 
-/// Where the camera is, for `project` and `measure`.
+/// The camera and its pose, for `project` and `measure`.
 #[derive(Debug, clap::Args)]
 pub struct PoseArgs {
     /// Camera file (docs/devices.md), or a built-in camera (aim2-raw, aim2-corrected)
@@ -24,7 +24,7 @@ pub struct PoseArgs {
     pub range: f64,
 }
 
-/// The view, or what is wrong with the arguments.
+/// The view of the camera at its pose. Fails where the camera file cannot be used, or the pose is out of range.
 pub fn from_args(args: &PoseArgs) -> Result<View, Failure> {
     let name = args.camera.to_str().filter(|name| !name.contains(['.', '/', '\\']));
     let spec = match name {

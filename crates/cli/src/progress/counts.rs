@@ -1,4 +1,4 @@
-//! How far a run is, in numbers.
+//! The progress of a run, in numbers.
 
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use indicatif::{HumanBytes, HumanCount, HumanDuration};
 use model::SessionStatus;
 use pipeline::Totals;
 
-/// How far a run is.
+/// The progress of a run.
 #[derive(Debug)]
 pub struct Counts {
     totals: Totals,
@@ -20,7 +20,7 @@ pub struct Counts {
     at_work: HashMap<String, Card>,
 }
 
-/// The card of a session at work.
+/// The progress of reading one session's card.
 #[derive(Debug, Default)]
 struct Card {
     bytes: u64,
@@ -28,7 +28,7 @@ struct Card {
 }
 
 impl Counts {
-    /// At the begin.
+    /// The progress at the beginning of a run.
     pub fn new(totals: &Totals) -> Self {
         Self {
             totals: *totals,
@@ -42,12 +42,12 @@ impl Counts {
         }
     }
 
-    /// A session has so much to be read. A second pass over a card counts no more than the first.
+    /// Notes that a session has so many bytes to be read. A second pass over a card adds nothing to the first.
     pub fn bytes_to_read(&mut self, session: &str, bytes: u64) {
         self.at_work.entry(session.to_owned()).or_default().bytes = bytes;
     }
 
-    /// More of it has been read; gives how much of how much of the session.
+    /// Notes that so many more bytes of a session have been read. Returns the bytes that are read and all bytes of the session.
     pub fn bytes_read(&mut self, session: &str, bytes: u64) -> (u64, u64) {
         let card = self.at_work.entry(session.to_owned()).or_default();
         let counted = bytes.min(card.bytes.saturating_sub(card.read));
@@ -56,7 +56,7 @@ impl Counts {
         (card.read, card.bytes)
     }
 
-    /// A session is done.
+    /// Notes that a session is done.
     pub fn done(&mut self, status: &SessionStatus) {
         self.done += 1;
         self.failed += usize::from(status.failed);
@@ -67,7 +67,7 @@ impl Counts {
         }
     }
 
-    /// Position and length of the bar: bytes where they are known, else sessions.
+    /// Position and length of the bar: in bytes where they are known, else in sessions.
     pub fn position(&self) -> (u64, u64) {
         match self.totals.bytes {
             Some(bytes) if bytes > 0 => (self.bytes_read.min(bytes), bytes),
@@ -84,7 +84,7 @@ impl Counts {
         self.totals.sessions - self.totals.kept
     }
 
-    /// Time that is left, at the pace so far.
+    /// The time that is left, at the pace so far; none before any progress.
     fn left(&self) -> Option<Duration> {
         let (position, length) = self.position();
         #[expect(clippy::cast_precision_loss, reason = "a ratio for a person")]
@@ -92,7 +92,7 @@ impl Counts {
         Duration::try_from_secs_f64(self.start.elapsed().as_secs_f64() * ratio).ok()
     }
 
-    /// Sessions and images, short enough for a bar.
+    /// The numbers of sessions and images as text, short enough for a bar.
     pub fn short(&self) -> String {
         let kept = if self.totals.kept > 0 { format!(" ({} kept)", self.totals.kept) } else { String::new() };
         format!(
@@ -105,7 +105,7 @@ impl Counts {
         )
     }
 
-    /// One line for a log.
+    /// The progress as one line for a log.
     pub fn line(&self) -> String {
         let (position, length) = self.position();
         let bytes = match self.totals.bytes {

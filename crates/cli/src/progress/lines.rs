@@ -1,4 +1,4 @@
-//! A plain line every 30 s, for logs of unattended runs.
+//! A line of plain text every 30 s, for logs of unattended runs.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -7,17 +7,17 @@ use std::time::Duration;
 
 use super::counts::Counts;
 
-/// Seconds between lines; the environment may say otherwise.
+/// Seconds between lines, unless `AIM_BATCH_PROGRESS_S` says otherwise.
 const EVERY_S: f64 = 30.0;
 
-/// A thread that writes lines until this is dropped.
+/// A thread that writes lines until this value is dropped.
 pub struct Lines {
     end: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Lines {
-    /// Starts it.
+    /// Starts the thread.
     pub fn start(counts: Arc<Mutex<Counts>>) -> Self {
         let every = interval(std::env::var("AIM_BATCH_PROGRESS_S").ok().as_deref());
         let (end, ended) = channel();
@@ -27,7 +27,7 @@ impl Lines {
                 tracing::info!(target: "aim_batch::progress", "{line}");
             }
         };
-        // Without a thread there are no lines, which is no reason not to run.
+        // Where the system gives no thread there are no lines, which is no reason not to run.
         let thread = std::thread::Builder::new().name("progress".to_owned()).spawn(write).ok();
         Self { end: Some(end), thread }
     }

@@ -1,4 +1,4 @@
-//! Progress: bars on a terminal, a line now and then elsewhere, nothing with `--quiet`.
+//! Progress: bars on a terminal, a line now and then where there is none, nothing with `--quiet`.
 
 mod counts;
 mod lines;
@@ -16,7 +16,7 @@ use pipeline::{Reporter, Totals};
 use counts::Counts;
 use lines::Lines;
 
-/// The bars of one command. indicatif shows nothing where stderr is no terminal.
+/// The progress bars of one command. indicatif shows nothing where stderr is no terminal.
 #[derive(Clone)]
 pub struct Bars {
     all: MultiProgress,
@@ -35,7 +35,7 @@ impl Bars {
         self.all.suspend(write)
     }
 
-    /// A single bar that counts `what` up to `total`; it takes the number done and the total.
+    /// A function that shows a bar with the caption `what`. It takes the number done and the total.
     pub fn counter(&self, what: &'static str) -> impl Fn(u64, u64) + Sync + use<> {
         let bar = self.all.add(ProgressBar::no_length());
         bar.set_style(style("{msg} [{bar:40}] {pos}/{len} {eta}"));
@@ -56,7 +56,7 @@ impl Bars {
         CardBar(bar)
     }
 
-    /// A run's reporter: an overall bar, and a line for each session at work.
+    /// The reporter of a run: an overall bar, and a line for each session at work.
     pub fn for_run(&self) -> RunBars {
         let overall = self.all.add(ProgressBar::no_length());
         overall.set_style(style("[{bar:30}] {percent}% {eta} left: {msg}"));

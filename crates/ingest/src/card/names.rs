@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::Path;
 
-use model::Problem;
+use model::{Problem, ProblemCode};
 
 use super::{CardFile, Place};
 
@@ -49,7 +49,7 @@ fn not_utf8(files: &[CardFile], place: &Place) -> Option<Problem> {
         0 => "the file's name is not UTF-8; it is used, with the odd bytes written as \\x..".to_owned(),
         more => format!("{} names are not UTF-8, first this one; their odd bytes are written as \\x..", more + 1),
     };
-    Some(place.note("name_not_utf8", &first.name, fact, "rename the files if another program must read them"))
+    Some(place.note(ProblemCode::NameNotUtf8, &first.name, fact, "rename the files if another program must read them"))
 }
 
 fn differ_in_case(files: &[CardFile], place: &Place) -> Option<Problem> {
@@ -66,5 +66,5 @@ fn differ_in_case(files: &[CardFile], place: &Place) -> Option<Problem> {
     };
     let fact = format!("names differ only in upper and lower case: {}{others}; all are used", names.join(", "));
     let remedy = "copy the card on Linux only: on Windows and macOS one of them overwrites the other";
-    Some(place.note("names_differ_in_case", names[0], fact, remedy))
+    Some(place.note(ProblemCode::NamesDifferInCase, names[0], fact, remedy))
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use model::{Problem, Severity, Stage};
+use model::{Problem, ProblemCode, Severity, Stage};
 
 /// A card, as messages name it: `cards/SESSION` in a study, else the folder's name.
 #[derive(Debug, Clone)]
@@ -19,12 +19,18 @@ impl Place {
     }
 
     /// Something lost from a file of the card; from the card itself for an empty `file`.
-    pub fn problem(&self, code: &str, file: &str, fact: impl Into<String>, remedy: impl Into<String>) -> Problem {
+    pub fn problem(
+        &self,
+        code: ProblemCode,
+        file: &str,
+        fact: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Problem {
         let place = if file.is_empty() { self.0.clone() } else { format!("{}/{file}", self.0) };
         Problem {
             severity: Severity::Loss,
             stage: Stage::Ingest,
-            code: code.to_owned(),
+            code,
             place,
             fact: fact.into(),
             remedy: remedy.into(),
@@ -32,7 +38,7 @@ impl Place {
     }
 
     /// Something worth knowing, by which nothing was lost.
-    pub fn note(&self, code: &str, file: &str, fact: impl Into<String>, remedy: impl Into<String>) -> Problem {
+    pub fn note(&self, code: ProblemCode, file: &str, fact: impl Into<String>, remedy: impl Into<String>) -> Problem {
         Problem { severity: Severity::Note, ..self.problem(code, file, fact, remedy) }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use model::Problem;
+use model::{Problem, ProblemCode};
 
 use super::decoder::{Decoder, Layout};
 use super::hashing::{HashingReader, Inputs, open_hashing};
@@ -183,7 +183,7 @@ impl<'a> Stream<'a> {
         self.hash_only(file);
         let fact = "there are no times in these files, and one anchor for all of them: which comes when cannot be told";
         let remedy = "join the files, or let [clock] anchor take each one's time from its name";
-        self.problems.push(self.place.problem("samples_without_time", &file.name, fact, remedy));
+        self.problems.push(self.place.problem(ProblemCode::SamplesWithoutTime, &file.name, fact, remedy));
     }
 
     fn hash_only(&mut self, file: &CardFile) {
@@ -197,6 +197,6 @@ impl<'a> Stream<'a> {
     fn pass_over(&mut self, file: &CardFile, same_as: &CardFile) {
         self.hash_only(file);
         let fact = format!("the file is the same as {}, byte for byte; it is used once", same_as.name);
-        self.problems.push(self.place.note("duplicate_file", &file.name, fact, "remove one of the two"));
+        self.problems.push(self.place.note(ProblemCode::DuplicateFile, &file.name, fact, "remove one of the two"));
     }
 }

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::Read;
 
-use model::Problem;
+use model::{Problem, ProblemCode};
 
 use super::patterns::{PatternError, Patterns, is_hidden};
 use super::place::amount;
@@ -42,7 +42,7 @@ impl Card {
             let fact = format!("{files} {verb} no pattern of the profile and stay unread: {examples}{and_more}");
             // A single one is named; several are the card's matter.
             let file = if unread.len() == 1 { first.name.as_str() } else { "" };
-            problems.push(place.note("unread_files", file, fact, remedy(&unread, declared)?));
+            problems.push(place.note(ProblemCode::UnreadFiles, file, fact, remedy(&unread, declared)?));
         }
         Ok(problems)
     }
@@ -58,9 +58,9 @@ fn not_a_file(name: &str, patterns: &Patterns, place: &Place) -> Problem {
     let fact = "neither a file nor a folder (a pipe, socket or device); it is not opened";
     let remedy = "copy the card again";
     if patterns.fits(name) {
-        place.problem("not_a_file", name, fact, remedy)
+        place.problem(ProblemCode::NotAFile, name, fact, remedy)
     } else {
-        place.note("not_a_file", name, fact, remedy)
+        place.note(ProblemCode::NotAFile, name, fact, remedy)
     }
 }
 

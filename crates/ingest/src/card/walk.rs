@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use model::Problem;
+use model::{Problem, ProblemCode};
 use walkdir::{DirEntry, WalkDir};
 
 use super::names::{card_name, odd_names};
@@ -54,7 +54,7 @@ impl Card {
             if leaves {
                 let fact = "a symbolic link that leaves the card; it is not followed";
                 let remedy = "copy the file itself onto the card's folder";
-                links.push(place.problem("link_leaves_card", &name_of(entry.path(), &root), fact, remedy));
+                links.push(place.problem(ProblemCode::LinkLeavesCard, &name_of(entry.path(), &root), fact, remedy));
             }
             !leaves && !is_system_folder(entry)
         };
@@ -116,5 +116,5 @@ fn unreadable(error: &walkdir::Error, root: &Path, place: &Place) -> Problem {
         (None, None) => "cannot be read".to_owned(),
     };
     let remedy = "copy it from the card again; check its permissions; remove links that lead nowhere";
-    place.problem("unreadable_file", &name.unwrap_or_default(), fact, remedy)
+    place.problem(ProblemCode::UnreadableFile, &name.unwrap_or_default(), fact, remedy)
 }

@@ -1,6 +1,6 @@
 //! What people should know of a session's clocks.
 
-use model::{Problem, UtcNs};
+use model::{Problem, ProblemCode, UtcNs};
 
 use crate::card::Place;
 use crate::timeline::{Span, StreamFacts, Timeline};
@@ -34,18 +34,18 @@ fn gaps(sensor: &str, facts: &StreamFacts, place: &Place) -> Option<Problem> {
         longest.seconds(),
         text(longest.from),
     );
-    Some(place.note("gaps", "", fact, "nothing is bridged: images in a gap have no pose"))
+    Some(place.note(ProblemCode::Gaps, "", fact, "nothing is bridged: images in a gap have no pose"))
 }
 
 fn order(sensor: &str, facts: &StreamFacts, place: &Place) -> Vec<Problem> {
     let mut notes = Vec::new();
     if facts.duplicates > 0 {
         let fact = format!("{} packets of the {sensor} are there twice; each is used once", facts.duplicates);
-        notes.push(place.note("duplicate_packets", "", fact, "none needed"));
+        notes.push(place.note(ProblemCode::DuplicatePackets, "", fact, "none needed"));
     }
     if facts.reordered > 0 {
         let fact = format!("{} packets of the {sensor} came after later ones; they are put in order", facts.reordered);
-        notes.push(place.note("packets_out_of_order", "", fact, "none needed"));
+        notes.push(place.note(ProblemCode::PacketsOutOfOrder, "", fact, "none needed"));
     }
     notes
 }
@@ -57,7 +57,12 @@ fn misplaced(sensor: &str, facts: &StreamFacts, place: &Place) -> Option<Problem
         facts.misplaced_samples,
         text(facts.first_misplaced?),
     );
-    Some(place.problem("misplaced_packets", "", fact, "copy the card again; if it stays so, the stamps are damaged"))
+    Some(place.problem(
+        ProblemCode::MisplacedPackets,
+        "",
+        fact,
+        "copy the card again; if it stays so, the stamps are damaged",
+    ))
 }
 
 fn rate(sensor: &str, facts: &StreamFacts, place: &Place) -> Option<Problem> {
@@ -66,7 +71,7 @@ fn rate(sensor: &str, facts: &StreamFacts, place: &Place) -> Option<Problem> {
     ((measured / nominal - 1.0).abs() > RATE_TOLERANCE).then(|| {
         let what = if facts.times_declared { "rows over the declared time" } else { "stamps" };
         let fact = format!("the {sensor}'s {what} give {measured:.2} Hz, the device profile says {nominal} Hz");
-        place.note("rate_not_nominal", "", fact, "the stamps are used; correct rate_hz in the device profile")
+        place.note(ProblemCode::RateNotNominal, "", fact, "the stamps are used; correct rate_hz in the device profile")
     })
 }
 
@@ -79,7 +84,7 @@ fn jumps(sensor: &str, facts: &StreamFacts, place: &Place) -> Option<Problem> {
         first.by_s,
     );
     let remedy = "times before and after belong to different settings of the clock: check which are right";
-    Some(place.note("clock_set", "", fact, remedy))
+    Some(place.note(ProblemCode::ClockSet, "", fact, remedy))
 }
 
 fn ambiguous(spans: &[Span], place: &Place) -> Option<Problem> {
@@ -90,7 +95,12 @@ fn ambiguous(spans: &[Span], place: &Place) -> Option<Problem> {
         text(first.from),
         text(first.to),
     );
-    Some(place.problem("ambiguous_time", "", fact, "split the card's files where the clock was set, if that is known"))
+    Some(place.problem(
+        ProblemCode::AmbiguousTime,
+        "",
+        fact,
+        "split the card's files where the clock was set, if that is known",
+    ))
 }
 
 fn text(time: UtcNs) -> String {

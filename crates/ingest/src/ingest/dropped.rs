@@ -13,7 +13,7 @@ pub(super) fn problems(dropped: &[DroppedImage], place: &Place) -> Vec<Problem> 
         let lost = amount(images.len(), "image", images.iter().map(|image| image.bytes).sum());
         let this = if images.len() == 1 { "" } else { "first: " };
         let fact = format!("{lost} cannot be used; {this}{}", first.detail);
-        Some(place.problem(reason.code(), &first.file, fact, remedy(*reason)))
+        Some(place.problem(reason.problem_code()?, &first.file, fact, remedy(*reason)))
     };
     FrameReason::ALL.iter().filter_map(of_reason).collect()
 }

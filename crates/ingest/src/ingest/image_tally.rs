@@ -1,6 +1,6 @@
 //! What was odd about the images that were used: one note per oddity and session.
 
-use model::Problem;
+use model::{Problem, ProblemCode};
 
 use crate::card::{Place, Remarks, amount, size};
 
@@ -64,9 +64,9 @@ impl ImageTally {
         );
         let one_remedy = "declare images.time from the one that all images have, if that is how the device writes them";
         [
-            ("bytes_after_image", bytes_after, after, after_remedy),
-            ("wrong_extension", wrong_extension, extension, "rename them if another program must read them"),
-            ("time_from_one_source", one_time, one, one_remedy),
+            (ProblemCode::BytesAfterImage, bytes_after, after, after_remedy),
+            (ProblemCode::WrongExtension, wrong_extension, extension, "rename them if another program must read them"),
+            (ProblemCode::TimeFromOneSource, one_time, one, one_remedy),
         ]
         .into_iter()
         .filter(|(_, tally, ..)| tally.images > 0)

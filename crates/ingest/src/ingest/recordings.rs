@@ -1,6 +1,6 @@
 //! Whether a card holds more than one recording.
 
-use model::{Problem, UtcNs};
+use model::{Problem, ProblemCode, UtcNs};
 
 use crate::card::Place;
 use crate::parse::image_time::utc_text;
@@ -37,7 +37,7 @@ pub(super) fn note(times: &[UtcNs], place: &Place) -> Option<Problem> {
     let fact = format!("images in {count} stretches with more than 6 h between them, UTC: {listed}{and_more}");
     let remedy = "if they are sessions of two wearers, put each in a card folder of its own; if the device's clock was \
                   reset, correct it";
-    Some(place.note("two_recordings", "", fact, remedy))
+    Some(place.note(ProblemCode::TwoRecordings, "", fact, remedy))
 }
 
 #[cfg(test)]
@@ -75,7 +75,7 @@ mod tests {
     fn a_card_with_two_lists_them() {
         let place = Place::of_card(Path::new("cards/P01"));
         let problem = note(&times(&[0, 60, 86_400]), &place).unwrap();
-        assert_eq!((problem.code.as_str(), problem.severity), ("two_recordings", Severity::Note));
+        assert_eq!((problem.code.code(), problem.severity), ("two_recordings", Severity::Note));
         let stretches = "1970-01-01T00:00:00Z to 1970-01-01T00:01:00Z (2 images), 1970-01-02T00:00:00Z to 1970-01-02T00:00:00Z (1 image)";
         assert!(problem.fact.ends_with(stretches), "{}", problem.fact);
         let many: Vec<i64> = (0..10).map(|day| day * 86_400).collect();

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use jiff::Timestamp;
-use model::{Camera, Problem, UtcNs};
+use model::{Camera, Problem, ProblemCode, UtcNs};
 
 use super::clock_problems::clock_problems;
 use super::image_tally::ImageTally;
@@ -196,14 +196,14 @@ impl<'a> Run<'a> {
         if is_absent {
             let fact = format!("no files of the {sensor}: nothing fits {}", patterns.join(" "));
             let remedy = "copy the whole card, or correct the patterns in the device profile (case matters)";
-            self.problems.push(self.place.problem("no_files", "", fact, remedy));
+            self.problems.push(self.place.problem(ProblemCode::NoFiles, "", fact, remedy));
         }
     }
 
     fn report_undeclared(&mut self, table: &str) {
         let fact = format!("device profile '{}' declares no [{table}]", self.source.profile.name);
         let remedy = format!("sizes need it: add a table [{table}] to the profile if the device writes such files");
-        self.problems.push(self.place.problem("not_declared", "", fact, remedy));
+        self.problems.push(self.place.problem(ProblemCode::NotDeclared, "", fact, remedy));
     }
 }
 

@@ -1,5 +1,7 @@
 //! What can be wrong with a sensor file, with what to do about it.
 
+use model::ProblemCode;
+
 /// What is wrong with a sensor file. The rest of the file is used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Fault {
@@ -146,21 +148,21 @@ impl Fault {
 
     /// Stable code, snake case.
     #[must_use]
-    pub fn code(&self) -> &'static str {
+    pub fn code(&self) -> ProblemCode {
         match self {
-            Self::TruncatedPacket { .. } => "truncated_packet",
-            Self::Zeros { .. } => "zero_blocks",
-            Self::LostAlignment { .. } => "lost_alignment",
-            Self::SequenceJumps { .. } => "sequence_jumps",
-            Self::NoHeader => "missing_header",
-            Self::BadBlocks { .. } => "bad_blocks",
-            Self::BadStamp { .. } => "bad_stamp",
-            Self::MissingColumn { .. } => "missing_column",
-            Self::BadRows { .. } => "bad_rows",
-            Self::LongLine { .. } => "long_line",
-            Self::Unreadable { .. } => "unreadable_file",
-            Self::NoTime { .. } => "samples_without_time",
-            Self::NoSamples => "no_samples",
+            Self::TruncatedPacket { .. } => ProblemCode::TruncatedPacket,
+            Self::Zeros { .. } => ProblemCode::ZeroBlocks,
+            Self::LostAlignment { .. } => ProblemCode::LostAlignment,
+            Self::SequenceJumps { .. } => ProblemCode::SequenceJumps,
+            Self::NoHeader => ProblemCode::MissingHeader,
+            Self::BadBlocks { .. } => ProblemCode::BadBlocks,
+            Self::BadStamp { .. } => ProblemCode::BadStamp,
+            Self::MissingColumn { .. } => ProblemCode::MissingColumn,
+            Self::BadRows { .. } => ProblemCode::BadRows,
+            Self::LongLine { .. } => ProblemCode::LongLine,
+            Self::Unreadable { .. } => ProblemCode::UnreadableFile,
+            Self::NoTime { .. } => ProblemCode::SamplesWithoutTime,
+            Self::NoSamples => ProblemCode::NoSamples,
         }
     }
 

@@ -42,7 +42,7 @@ fn images_that_cannot_be_used_are_listed_with_their_reason() {
     let DroppedImage { detail, bytes, .. } = &summary.dropped_images[3];
     assert_eq!(detail, "camera 'small' takes 32 x 24 px, this one is 24 x 32 px");
     assert!(*bytes > 0);
-    let codes: Vec<_> = summary.problems.iter().map(|p| (p.code.as_str(), p.place.as_str())).collect();
+    let codes: Vec<_> = summary.problems.iter().map(|p| (p.code.code(), p.place.as_str())).collect();
     assert_eq!(
         codes,
         [
@@ -68,7 +68,7 @@ fn of_a_truncated_sensor_file_all_whole_samples_are_used() {
     assert_eq!(summary.counts.acceleration, 1022 + 972);
     assert_eq!(samples(&mut reader).len(), 1022 + 972 + 1022);
     let problem = &summary.problems[0];
-    assert_eq!((problem.code.as_str(), problem.place.as_str()), ("truncated_packet", "cards/P01/SENSORS/ACC.BIN"));
+    assert_eq!((problem.code.code(), problem.place.as_str()), ("truncated_packet", "cards/P01/SENSORS/ACC.BIN"));
     assert!(
         problem.fact.contains("inside the packet at byte 8184: expected 8184 bytes, got 6040, of which 972 samples"),
         "{}",

@@ -36,7 +36,7 @@ fn only_loss(second: &[u8], reason: FrameReason) -> Problem {
     assert_eq!(dropped_images[0].bytes, second.len() as u64);
     assert!(dropped_images[0].time.is_some(), "its name still says when it was taken");
     let [problem] = &problems[..] else { panic!("{problems:?}") };
-    assert_eq!((problem.code.as_str(), problem.severity), (reason.code(), Severity::Loss));
+    assert_eq!((problem.code.code(), problem.severity), (reason.code(), Severity::Loss));
     assert_eq!(problem.place, format!("cards/P01/{SECOND}"));
     assert!(!problem.remedy.is_empty());
     problem.clone()
@@ -95,7 +95,7 @@ fn only_note(second: &[u8]) -> Problem {
 #[test]
 fn bytes_behind_a_picture_are_a_note_and_stay() {
     let problem = only_note(&[noisy_jpeg(128, 96), vec![7; 1500]].concat());
-    assert_eq!(problem.code, "bytes_after_image");
+    assert_eq!(problem.code.code(), "bytes_after_image");
     assert!(problem.fact.starts_with("1.5 kB behind the end marker of 1 image,"), "{}", problem.fact);
 }
 
@@ -111,7 +111,7 @@ fn a_multi_picture_file_is_all_right() {
 #[test]
 fn a_picture_of_the_other_encoding_is_read_and_noted() {
     let problem = only_note(&png(128, 96));
-    assert_eq!(problem.code, "wrong_extension");
+    assert_eq!(problem.code.code(), "wrong_extension");
     assert!(problem.fact.contains("1 image ("), "{}", problem.fact);
 }
 
@@ -171,7 +171,7 @@ fn times_that_disagree_drop_the_image_and_one_alone_is_noted() {
         summary.dropped_images[0].detail,
         "the name says 2025-06-01T12:00:10Z, EXIF says 2025-06-01T11:00:10Z: 3600 s apart, more than 2 s"
     );
-    let codes: Vec<_> = summary.problems.iter().map(|p| (p.code.as_str(), p.severity)).collect();
+    let codes: Vec<_> = summary.problems.iter().map(|p| (p.code.code(), p.severity)).collect();
     let (loss, note) = (Severity::Loss, Severity::Note);
     assert_eq!(codes, [("no_time", loss), ("times_disagree", loss), ("time_from_one_source", note)]);
     assert!(summary.problems[2].fact.contains("2 images ("), "{}", summary.problems[2].fact);
@@ -193,6 +193,6 @@ fn images_of_two_days_are_a_note() {
     let (summary, _) = study.ingest();
     assert_eq!(summary.images, 4);
     let [problem] = &summary.problems[..] else { panic!("{:?}", summary.problems) };
-    assert_eq!((problem.code.as_str(), problem.severity), ("two_recordings", Severity::Note));
+    assert_eq!((problem.code.code(), problem.severity), ("two_recordings", Severity::Note));
     assert!(problem.fact.contains("2025-06-01T12:00:00Z to 2025-06-01T12:00:02Z (3 images)"), "{}", problem.fact);
 }

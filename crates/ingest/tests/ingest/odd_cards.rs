@@ -45,7 +45,7 @@ fn files_that_no_pattern_fits_are_counted() {
         study.write(&format!("LOGS/{i}.TXT"), &[b'a'; 300]);
     }
     let (problem, images) = only_problem(&study);
-    assert_eq!((problem.code.as_str(), problem.severity, images), ("unread_files", Severity::Note, 1));
+    assert_eq!((problem.code.code(), problem.severity, images), ("unread_files", Severity::Note, 1));
     assert_eq!(problem.place, "cards/P01");
     let expected =
         "5 files (1.5 kB) fit no pattern of the profile and stay unread: LOGS/0.TXT, LOGS/1.TXT, LOGS/2.TXT, ...";
@@ -92,7 +92,7 @@ mod linux {
         }
         let (summary, reader) = study.ingest();
         let note = &summary.problems[0];
-        assert_eq!((note.code.as_str(), note.severity), ("name_not_utf8", Severity::Note));
+        assert_eq!((note.code.code(), note.severity), ("name_not_utf8", Severity::Note));
         assert_eq!(note.place, "cards/P01/IMAGES/\\xff.JPG");
         let names: Vec<&str> = reader.metadata().inputs_sha256.keys().map(String::as_str).take(4).collect();
         let expected =
@@ -116,7 +116,7 @@ mod linux {
         let study = card();
         study.write("IMAGES/20250601T120000Z.jpg", &jpeg(32, 24, 50));
         let (problem, images) = only_problem(&study);
-        assert_eq!((problem.code.as_str(), problem.severity, images), ("names_differ_in_case", Severity::Note, 2));
+        assert_eq!((problem.code.code(), problem.severity, images), ("names_differ_in_case", Severity::Note, 2));
         assert!(problem.fact.contains("IMAGES/20250601T120000Z.JPG, IMAGES/20250601T120000Z.jpg; all are used"));
     }
 
@@ -125,7 +125,7 @@ mod linux {
         let study = card();
         let _other = UnixListener::bind(study.source.card_dir.join("a.socket")).unwrap();
         let (problem, images) = only_problem(&study);
-        assert_eq!((problem.code.as_str(), problem.severity, images), ("not_a_file", Severity::Note, 1));
+        assert_eq!((problem.code.code(), problem.severity, images), ("not_a_file", Severity::Note, 1));
         let _picture = UnixListener::bind(study.source.card_dir.join("IMAGES/20250601T120001Z.JPG")).unwrap();
         let (summary, _) = study.ingest();
         assert_eq!(summary.problems[0].place, "cards/P01/IMAGES/20250601T120001Z.JPG");

@@ -163,7 +163,7 @@ fn overlapping_and_jumping_files_still_come_back_in_order_of_time() {
     study.write("accel3.csv", format!("{}5.0,0.0,-1.0,0.5\n6.0,,,\n", rows(NOON_S + 600, 10)).as_bytes());
     let (summary, mut reader) = study.ingest();
     assert_eq!(summary.counts.acceleration, 120_010);
-    let misplaced = summary.problems.iter().find(|problem| problem.code == "misplaced_packets").unwrap();
+    let misplaced = summary.problems.iter().find(|problem| problem.code.code() == "misplaced_packets").unwrap();
     assert!(misplaced.fact.contains("(1 samples)") && misplaced.fact.contains("1970-01-01"), "{}", misplaced.fact);
     let samples = samples(&mut reader);
     assert_eq!(samples.len(), 120_010);

@@ -61,7 +61,7 @@ impl Study {
     pub fn problems(&self) -> Vec<(String, String)> {
         let (summary, reader) = self.ingest();
         assert_eq!(reader.metadata().problems, summary.problems);
-        summary.problems.into_iter().map(|problem| (problem.code, problem.place)).collect()
+        summary.problems.into_iter().map(|problem| (problem.code.code().to_owned(), problem.place)).collect()
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::circle::CircleError;
 use crate::container::Shape;
 use crate::marks::Feature;
+use crate::problem_code::ProblemCode;
 use crate::view::ViewError;
 
 /// The reason why marks do not give a size.
@@ -62,16 +63,16 @@ pub enum MeasureError {
 impl MeasureError {
     /// The stable code of the error, which stands in the `flags` of the results.
     #[must_use]
-    pub fn code(&self) -> &'static str {
+    pub const fn problem_code(&self) -> ProblemCode {
         match self {
-            Self::View(_) => "mark_off_plane",
-            Self::Circle { .. } => "no_circle",
-            Self::NoHeight => "no_height",
-            Self::RimBelowFoot => "rim_below_foot",
-            Self::RimAboveCamera { .. } => "rim_above_camera",
-            Self::BaseUnderCamera => "base_under_camera",
-            Self::NoLength => "no_length",
-            Self::NotFourCorners { .. } => "not_four_corners",
+            Self::View(_) => ProblemCode::MarkOffPlane,
+            Self::Circle { .. } => ProblemCode::NoCircle,
+            Self::NoHeight => ProblemCode::NoHeight,
+            Self::RimBelowFoot => ProblemCode::RimBelowFoot,
+            Self::RimAboveCamera { .. } => ProblemCode::RimAboveCamera,
+            Self::BaseUnderCamera => ProblemCode::BaseUnderCamera,
+            Self::NoLength => ProblemCode::NoLength,
+            Self::NotFourCorners { .. } => ProblemCode::NotFourCorners,
         }
     }
 }

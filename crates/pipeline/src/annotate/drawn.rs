@@ -1,4 +1,4 @@
-//! Marks and sizes drawn on a picture, for viewers that show pictures and no overlays.
+//! Draws marks and sizes on a picture, for viewers that show pictures without overlays.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +12,7 @@ use crate::overlay::{Drawn, draw};
 const SIDE_PX: u32 = 1296;
 const QUALITY: u8 = 80;
 
-/// The picture, reduced, as a JPEG file.
+/// The picture, reduced and drawn on, as a JPEG file.
 pub(super) fn drawn(notes: &ImageNotes<'_>, jpeg: &[u8]) -> Result<Vec<u8>, String> {
     let mut picture = Picture::decode(jpeg).map_err(|error| error.to_string())?.reduced(SIDE_PX);
     if let Some(view) = &notes.view {
@@ -25,7 +25,7 @@ pub(super) fn drawn(notes: &ImageNotes<'_>, jpeg: &[u8]) -> Result<Vec<u8>, Stri
     picture.to_jpeg(QUALITY).map_err(|error| error.to_string())
 }
 
-/// All raters of an object together: their sizes are written below each other.
+/// The objects to be drawn, with the marks of all raters together: their sizes are written below each other.
 fn objects(notes: &ImageNotes<'_>, place: impl Fn([f64; 2]) -> Point2<f64>) -> Vec<Drawn> {
     let mut by_object: BTreeMap<&str, Vec<&MarkNote>> = BTreeMap::new();
     for mark in &notes.marks {
@@ -50,7 +50,7 @@ fn objects(notes: &ImageNotes<'_>, place: impl Fn([f64; 2]) -> Point2<f64>) -> V
     by_object.into_iter().map(drawn).collect()
 }
 
-/// A line has two ends, a curve more.
+/// The mark in the reduced picture. A line has two ends, a curve more.
 fn resampled(mark: &MarkNote, place: impl Fn([f64; 2]) -> Point2<f64>) -> Option<Mark> {
     let points_px: Vec<Point2<f64>> = mark.points_px.iter().copied().map(place).collect();
     match points_px.as_slice() {
@@ -61,7 +61,7 @@ fn resampled(mark: &MarkNote, place: impl Fn([f64; 2]) -> Point2<f64>) -> Option
     }
 }
 
-/// In ASCII, as the drawn letters are; with the rater where there are several.
+/// The line of text for a size, in ASCII as the drawn letters are; with the rater where there are several.
 fn line(row: &ResultRow, names_rater: bool) -> Option<String> {
     let rater = if names_rater { format!("{} ", row.rater) } else { String::new() };
     let sigma = row.sigma_mm.map(|mm| format!(" +- {mm:.1}")).unwrap_or_default();

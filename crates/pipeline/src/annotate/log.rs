@@ -1,4 +1,4 @@
-//! Lines of the log that belong to no recorded image: the session's problems, its dropped images, its fused sizes.
+//! The lines of the log that belong to no recorded image: the session's problems, its dropped images, its fused sizes.
 
 use ingest::{LogLevel, LogNote};
 use model::{FrameRow, Level, Problem, ResultRow, Severity, UtcNs};
@@ -6,12 +6,12 @@ use model::{FrameRow, Level, Problem, ResultRow, Severity, UtcNs};
 use super::notes::worth;
 use crate::session::SessionOutput;
 
-/// In the order of time. What has no time stands at the first image's, fused sizes at the last one's.
+/// The lines in the order of time. A line without a time stands at the first image's time, a fused size at the last one's.
 pub(super) fn of_session(output: &SessionOutput) -> Vec<LogNote> {
     let times = || output.frames.iter().filter_map(|frame| frame.time_utc);
     let (first, last) = (times().min().unwrap_or(UtcNs(0)), times().max().unwrap_or(UtcNs(0)));
     let mut notes: Vec<LogNote> = output.status.problems.iter().map(|problem| of_problem(problem, first)).collect();
-    // The recorded ones have their line beside the picture.
+    // Recorded images have their line beside the picture.
     notes.extend(output.frames.iter().filter(|frame| !is_recorded(frame)).map(|frame| of_dropped(frame, first)));
     notes.sort_by_key(|note| note.time);
     let fused = || output.results.iter().filter(|row| row.level == Level::Fused);

@@ -1,4 +1,4 @@
-//! Recordings with what was found in them, for viewers: `WORK/annotated/SESSION.annotated.mcap` (docs/viewers.md).
+//! Writes recordings with their marks and sizes, for viewers: `WORK/annotated/SESSION.annotated.mcap` (docs/viewers.md).
 
 mod drawn;
 mod log;
@@ -20,34 +20,34 @@ use crate::study::{SessionDir, Study};
 use crate::work::{Kept, WorkError, WorkFolder, annotated_of};
 use notes::Notes;
 
-/// Version of what is written. A change of meaning gives another number, and the files are made anew.
+/// The version of the files. A change of meaning gets another number, and the files are then made anew.
 const ANNOTATE_VERSION: u32 = 1;
-/// A picture counts with so many bytes per pixel while marks are drawn on it.
+/// A picture takes this many bytes per pixel while marks are drawn on it.
 const BYTES_PER_PIXEL: u64 = 4;
 
-/// What was done.
+/// The result of annotating a study.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Annotated {
-    /// Where the files are.
+    /// The folder of the files.
     pub folder: PathBuf,
-    /// Files made.
+    /// The number of files that were made.
     pub made: usize,
-    /// Files that are as they would be made.
+    /// The number of files that are as they would be made.
     pub kept: usize,
-    /// Sessions without a file, and why; those that failed in the run are left out.
+    /// The sessions without a file, and why; those that failed in the run are left out.
     pub failed: Vec<NotAnnotated>,
 }
 
 /// A session without an annotated recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NotAnnotated {
-    /// Its name.
+    /// The name of the session.
     pub session: String,
-    /// Why.
+    /// The reason.
     pub fact: String,
 }
 
-/// What became of one session.
+/// The outcome for one session.
 enum Outcome {
     Made,
     Kept,
@@ -93,7 +93,7 @@ pub fn annotate(study: &Study, options: &RunOptions, reporter: &dyn Reporter) ->
     }
 }
 
-/// What the sessions at work share.
+/// Everything that the sessions at work share.
 struct Annotator<'a> {
     study: &'a Study,
     work: &'a WorkFolder,
@@ -104,7 +104,7 @@ struct Annotator<'a> {
     reporter: &'a dyn Reporter,
 }
 
-/// Why a session has no file.
+/// The reason why a session has no file.
 #[derive(Debug, thiserror::Error)]
 enum AnnotateFailure {
     #[error(transparent)]
@@ -144,7 +144,7 @@ impl Annotator<'_> {
         outcome
     }
 
-    /// How the session fared in the run, for the progress: one whose file is kept, or cannot be made, is done as well.
+    /// The status of the session for the progress: a session whose file is kept, or cannot be made, is done as well.
     fn status(&self, dir: &SessionDir, outcome: &Outcome) -> SessionStatus {
         let of_run = self.kept.get(&dir.name).and_then(|kept| kept.status.clone());
         let status = of_run.unwrap_or_else(|| SessionStatus { session: dir.name.clone(), ..SessionStatus::default() });
@@ -168,7 +168,7 @@ impl Annotator<'_> {
         Ok(Outcome::Made)
     }
 
-    /// What the file is made from; none where the session has failed, or was never measured.
+    /// The key of everything that the file is made from; none where the session has failed, or was never measured.
     fn key(&self, dir: &SessionDir) -> Result<Option<String>, AnnotateFailure> {
         let Some(kept) = self.kept.get(&dir.name) else { return Ok(None) };
         let failed = kept.status.as_ref().is_none_or(|status| status.failed);
@@ -209,7 +209,7 @@ impl Annotator<'_> {
         Ok(())
     }
 
-    /// The camera that sizes were measured with, or that of the recording where there are none.
+    /// The camera that sizes were measured with, or that of the recording where there are no sizes.
     fn camera(&self, output: &SessionOutput, recording: &Path) -> Result<Camera, AnnotateFailure> {
         match &output.shown.camera {
             Some(spec) => Ok(spec.camera()?),
@@ -222,7 +222,7 @@ fn bytes_in_memory(image: &ImageEntry) -> u64 {
     image.bytes + BYTES_PER_PIXEL * u64::from(image.width_px) * u64::from(image.height_px)
 }
 
-/// A file of an earlier run says what is no longer so.
+/// Removes a file of an earlier run, whose content no longer holds.
 fn remove(file: &Path) -> Result<(), AnnotateFailure> {
     match std::fs::remove_file(file) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error.into()),

@@ -1,4 +1,4 @@
-//! What is known of each image of a session, by image.
+//! The notes on each image of a session: its row of the ledger, marks and sizes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,14 +7,14 @@ use model::{Feature, FrameReason, FrameRow, Level, Method, Quantity, ResultRow};
 
 use crate::session::{SessionOutput, ShownMark, ShownObject};
 
-/// What was kept of a session, by image.
+/// The kept output of a session, by image.
 pub(super) struct Notes<'a> {
     output: &'a SessionOutput,
     frames: BTreeMap<&'a str, &'a FrameRow>,
     sizes: BTreeMap<&'a str, Vec<&'a ResultRow>>,
-    /// For an image that the ledger does not have.
+    /// The row for an image that the ledger does not have.
     unknown: FrameRow,
-    /// Who marked, sorted.
+    /// The raters, sorted.
     pub raters: Vec<String>,
 }
 
@@ -46,7 +46,7 @@ impl<'a> Notes<'a> {
     }
 }
 
-/// One row of each quantity that a rater measured in an image: by the method that is worth most.
+/// One row of each quantity that a rater measured in an image, by the method that is worth most.
 fn sizes_by_image(results: &[ResultRow]) -> BTreeMap<&str, Vec<&ResultRow>> {
     let mut chosen: BTreeMap<(&str, &str, &str, Quantity), &ResultRow> = BTreeMap::new();
     for row in results.iter().filter(|row| row.level == Level::Frame && row.predicted_mm.is_some()) {

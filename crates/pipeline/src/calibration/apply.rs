@@ -1,11 +1,11 @@
-//! A calibration in a run.
+//! The use of a calibration in a run.
 
 use model::{Estimate, InputSigma, Kind, Method, Quantity, Source, View};
 
 use super::{CalibrationFile, PhysicalEntry};
 
-/// What is left of the pitch of an accelerometer whose offset a bench has taught: ADXL362 data sheet, 0.5 mg per degree
-/// Celsius; 10 degrees between bench and use are 5 mg, or 0.3 degrees.
+/// What remains of the pitch error of an accelerometer whose offset a bench has taught. ADXL362 data sheet: 0.5 mg per
+/// degree Celsius; 10 degrees between bench and use are 5 mg, or 0.3 degrees.
 const DRIFT_DEG: f64 = 0.3;
 
 /// The view after the physical corrections; method `paper` keeps its readings. None where no such pose exists.
@@ -16,7 +16,7 @@ pub(crate) fn corrected_view(calibration: Option<&CalibrationFile>, method: Meth
     }
 }
 
-/// Uncertainties after the physical corrections: the covariance that was learned, in place of what was known before.
+/// The uncertainties after the physical corrections: the covariance that was learned, in place of what was known before.
 pub(crate) fn inputs_after(calibration: Option<&CalibrationFile>, inputs: InputSigma) -> InputSigma {
     match calibration.and_then(|file| file.physical.as_ref()) {
         Some(physical) => inputs_with(physical, inputs),
@@ -25,7 +25,7 @@ pub(crate) fn inputs_after(calibration: Option<&CalibrationFile>, inputs: InputS
 }
 
 pub(crate) fn inputs_with(physical: &PhysicalEntry, inputs: InputSigma) -> InputSigma {
-    // The mount's correction holds the accelerometer's pitch; where it was not learned, nor was that.
+    // The mount's correction includes the accelerometer's pitch. Where the mount was not learned, nor was that pitch.
     let learned_pitch = physical.determined.contains(&Source::Mount);
     let mut covariance = physical.covariance();
     if !learned_pitch {
@@ -36,7 +36,7 @@ pub(crate) fn inputs_with(physical: &PhysicalEntry, inputs: InputSigma) -> Input
     InputSigma { pitch_rad, learned: Some(covariance), ..inputs }
 }
 
-/// A size of method `paper` divided by a + b tan(pitch), with its derivatives.
+/// The size of method `paper` divided by a + b tan(pitch), with its derivatives; other estimates as they are.
 pub(crate) fn scaled_paper(
     calibration: Option<&CalibrationFile>,
     kind: Kind,

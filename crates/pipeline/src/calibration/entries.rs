@@ -10,17 +10,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::signals::RangeCone;
 
-/// Errors of what was left out of a fit.
+/// The errors of the sizes that were left out of a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeldOutEntry {
-    /// How many sizes.
+    /// The number of sizes.
     pub n: usize,
-    /// How many objects or setups were left out in turn.
+    /// The number of objects or setups that were left out in turn.
     pub folds: usize,
-    /// Root mean square error before, in per cent.
+    /// The root mean square error without the correction, in per cent.
     pub before_rmse_pct: f64,
-    /// After; missing where a fold left too little to fit.
+    /// The root mean square error with the correction, in per cent; missing where a fold left too little to fit.
     #[serde(default)]
     pub after_rmse_pct: Option<f64>,
 }
@@ -32,7 +32,7 @@ impl From<HeldOut> for HeldOutEntry {
 }
 
 impl HeldOutEntry {
-    /// Whether the errors are smaller after than before.
+    /// Whether the errors are smaller with the correction than without.
     #[must_use]
     pub fn is_better(&self) -> bool {
         self.after_rmse_pct.is_some_and(|after| after < self.before_rmse_pct)
@@ -43,12 +43,12 @@ impl HeldOutEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RefusedEntry {
-    /// Which.
+    /// The source of error that the parameter corrects.
     pub source: Source,
-    /// SD from the data alone, where they say anything; in rad, mm or a share.
+    /// The SD from the data alone, where they say anything; in rad, mm or as a share.
     #[serde(default)]
     pub sd: Option<f64>,
-    /// SD known beforehand.
+    /// The SD that was known beforehand.
     pub prior_sd: f64,
 }
 
@@ -56,43 +56,43 @@ pub struct RefusedEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PhysicalEntry {
-    /// Added to the camera's angle on the device.
+    /// The angle that is added to the camera's angle on the device.
     pub mount_deg: f64,
     /// Its SD.
     pub mount_sd_deg: f64,
-    /// true range = reading (1 + this / 100) + `range_offset_mm`.
+    /// The scale of the range: true range = reading (1 + this / 100) + `range_offset_mm`.
     pub range_scale_pct: f64,
     /// Its SD.
     pub range_scale_sd_pct: f64,
-    /// See `range_scale_pct`.
+    /// The offset of the range; see `range_scale_pct`.
     pub range_offset_mm: f64,
     /// Its SD.
     pub range_offset_sd_mm: f64,
-    /// True focal length = the camera's (1 + this / 100).
+    /// The scale of the focal length: true focal length = the camera's (1 + this / 100).
     pub focal_pct: f64,
     /// Its SD.
     pub focal_sd_pct: f64,
-    /// Whether the range's cone is corrected before.
+    /// Whether the range is corrected for the sensor's cone before.
     pub range_cone: RangeCone,
-    /// Parameters that the data determine.
+    /// The parameters that the data determine.
     pub determined: Vec<Source>,
-    /// What setups left out are off by beyond what corrected sizes claim, in per cent: an error that the sizes of a session share,
-    /// of a cause that is not known. A run adds it to the range's.
+    /// The error beyond what corrected sizes claim, in per cent, of setups that were left out. Its cause is not known, and
+    /// the sizes of a session share it, so a run adds it to the range's uncertainty.
     #[serde(default)]
     pub unexplained_pct: f64,
-    /// Covariance of mount (rad), range scale (share), range offset (mm) and focal length (share).
+    /// The covariance of mount (rad), range scale (share), range offset (mm) and focal length (share).
     pub covariance: [[f64; 4]; 4],
-    /// Those that they do not.
+    /// The parameters that the data do not determine.
     #[serde(default)]
     pub refused: Vec<RefusedEntry>,
-    /// Objects left out in turn.
+    /// The errors with each object left out in turn.
     pub without_object: HeldOutEntry,
-    /// Setups left out in turn.
+    /// The errors with each setup left out in turn.
     pub without_setup: HeldOutEntry,
 }
 
 impl PhysicalEntry {
-    /// For the mathematics.
+    /// The values in the units of the mathematics.
     #[must_use]
     pub fn correction(&self) -> Correction {
         Correction {
@@ -103,7 +103,7 @@ impl PhysicalEntry {
         }
     }
 
-    /// For the mathematics.
+    /// The values in the units of the mathematics.
     #[must_use]
     pub fn covariance(&self) -> Matrix4<f64> {
         Matrix4::from_fn(|i, j| self.covariance[i][j])
@@ -142,31 +142,31 @@ pub(crate) fn physical_entry(fitted: &Physical, range_cone: RangeCone, prior: &I
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EmpiricalEntry {
-    /// Of which containers.
+    /// The kind of container.
     pub kind: Kind,
-    /// Heights, or what is measured across the mouth.
+    /// Whether it is for heights; else for what is measured across the mouth.
     pub height: bool,
-    /// predicted = true (a + b tan(pitch)).
+    /// The line is predicted = true (a + b tan(pitch)).
     pub a: f64,
-    /// See `a`.
+    /// The slope of the line; see `a`.
     pub b: f64,
-    /// Covariance of a and b.
+    /// The covariance of a and b.
     pub covariance: [[f64; 2]; 2],
-    /// Robust SD of the factors about the line.
+    /// The robust SD of the factors about the line.
     pub scatter: f64,
-    /// Whether setups left out are better with it than without: only then it is used.
+    /// Whether setups that were left out are better with it than without. Only then it is used.
     pub used: bool,
-    /// Objects left out in turn.
+    /// The errors with each object left out in turn.
     pub without_object: HeldOutEntry,
-    /// Setups left out in turn.
+    /// The errors with each setup left out in turn.
     pub without_setup: HeldOutEntry,
-    /// Rows that look like a slip of the decimal point: OBJECT in SESSION. They are kept as they are.
+    /// The rows that look like a slip of the decimal point: OBJECT in SESSION. They are kept as they are.
     #[serde(default)]
     pub slips: Vec<String>,
-    /// Objects left out, with the slips mended.
+    /// The errors with each object left out in turn, with the slips mended.
     #[serde(default)]
     pub mended_without_object: Option<HeldOutEntry>,
-    /// Setups left out, with the slips mended.
+    /// The errors with each setup left out in turn, with the slips mended.
     #[serde(default)]
     pub mended_without_setup: Option<HeldOutEntry>,
 }
@@ -199,15 +199,15 @@ pub(crate) fn empirical_entry(
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProtractorEntry {
-    /// How many images.
+    /// The number of images.
     pub n: usize,
-    /// Slope of measured against declared pitch.
+    /// The slope of measured against declared pitch.
     pub slope: f64,
-    /// Measured pitch at declared zero.
+    /// The measured pitch at a declared pitch of zero.
     pub offset_deg: f64,
-    /// Mean of measured - declared.
+    /// The mean of measured minus declared pitch.
     pub mean_difference_deg: f64,
-    /// Their sample SD.
+    /// The sample SD of these differences.
     pub sd_difference_deg: f64,
 }
 

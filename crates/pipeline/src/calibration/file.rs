@@ -1,4 +1,4 @@
-//! calibration.toml.
+//! calibration.toml, read, checked and written.
 
 use std::path::Path;
 
@@ -13,39 +13,39 @@ pub const CALIBRATION_SCHEMA_VERSION: u32 = 1;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CalibrationFile {
-    /// Version of this layout: 1.
+    /// The version of this layout: 1.
     pub schema_version: u32,
-    /// Program and version that wrote it.
+    /// The program that wrote it, and its version.
     pub program: String,
-    /// Study that it was learned from.
+    /// The study that it was learned from.
     pub study: String,
-    /// What could not be determined, and what to know.
+    /// Notes: what could not be determined, and what else to know.
     #[serde(default)]
     pub notes: Vec<String>,
-    /// Corrections of readings, for every method but `paper`.
+    /// The corrections of readings, for every method but `paper`.
     #[serde(default)]
     pub physical: Option<PhysicalEntry>,
-    /// Angles that were declared against those that were measured.
+    /// The declared angles against the measured ones.
     #[serde(default)]
     pub protractor: Option<ProtractorEntry>,
-    /// Factors on the sizes of method `paper`.
+    /// The factors on the sizes of method `paper`.
     #[serde(default)]
     pub empirical: Vec<EmpiricalEntry>,
 }
 
-/// Why a calibration.toml is refused.
+/// The reason why a calibration.toml is refused.
 #[derive(Debug, thiserror::Error)]
 pub enum CalibrationFileError {
     /// It cannot be read, or is not such a file.
     #[error(transparent)]
     Config(#[from] ingest::ConfigError),
-    /// It does not go into TOML.
+    /// It cannot be written as TOML.
     #[error("cannot write the calibration: {0}")]
     Toml(#[from] toml::ser::Error),
-    /// A version of another program.
+    /// It has a version that this program does not read.
     #[error("calibration.toml: schema_version = {0}: this program reads version {CALIBRATION_SCHEMA_VERSION}")]
     Version(u32),
-    /// A number that is none, or a correction beyond sense.
+    /// A number is not finite, or a correction is beyond all sense.
     #[error(
         "calibration.toml: {0}: expected finite numbers, a mount within 20 degrees, scales within 50 % and variances above 0"
     )]
@@ -65,7 +65,7 @@ impl CalibrationFile {
         }
     }
 
-    /// Reads a calibration.toml.
+    /// The calibration in a file, checked.
     ///
     /// # Errors
     /// [`CalibrationFileError`].
@@ -75,7 +75,7 @@ impl CalibrationFile {
         Ok(file)
     }
 
-    /// As the text of a file.
+    /// The text of the file.
     ///
     /// # Errors
     /// [`CalibrationFileError::Toml`].

@@ -1,4 +1,4 @@
-//! What a run would lose, before it: every stage that needs no pictures, and nothing stored.
+//! Tells before a run what it would lose: goes through every stage that needs no pictures, and stores nothing.
 
 mod sizes;
 
@@ -14,20 +14,20 @@ use crate::study::Study;
 use crate::survey::{Survey, SurveyError, SurveyOptions};
 use sizes::Measured;
 
-/// What a check found.
+/// The result of a check.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checked {
     /// How each session would fare, in the order of the names.
     pub sessions: Vec<SessionStatus>,
-    /// What would become of the images.
+    /// The numbers of images at each step, kept and dropped.
     pub flow: StudyFlow,
-    /// What concerns the study as a whole: objects without a size, tables that would stay empty.
+    /// Problems of the study as a whole: objects without a size, tables that would stay empty.
     pub study: Vec<Problem>,
 }
 
-/// Goes the road of [`run`](crate::run) for every session, with the same problems, without pictures and without results.
-/// Cards are read whole, since damage shows nowhere else; what is written goes into a temporary folder. Of the rows only
-/// counts are kept.
+/// Does for every session what [`run()`](crate::run()) does, with the same problems, but without pictures and without
+/// results. Cards are read whole, since damage shows nowhere else; what is written goes into a temporary folder. Only counts
+/// are kept of the rows.
 ///
 /// # Errors
 /// [`SurveyError`] for what concerns the check as a whole.
@@ -51,7 +51,7 @@ pub fn check(study: &Study, options: &SurveyOptions, reporter: &dyn Reporter) ->
     Ok(checked)
 }
 
-/// What is kept of a session.
+/// The part of a session's output that is kept.
 struct Part {
     status: SessionStatus,
     flow: StudyFlow,

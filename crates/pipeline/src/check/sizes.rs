@@ -1,12 +1,14 @@
-//! What a study would measure, and what it would not.
+//! The sizes that a study would measure, and those that it would not.
 
 use std::collections::BTreeSet;
 
-use model::{Kind, Level, Method, Problem, Quantity, ResultRow, Selection, Severity, Stage, TableLayout, TableSpec};
+use model::{
+    Kind, Level, Method, Problem, ProblemCode, Quantity, ResultRow, Selection, Severity, Stage, TableLayout, TableSpec,
+};
 
 use crate::study::Study;
 
-/// That there is a size of this sort.
+/// The sort of a size that would be measured.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Measured {
     object: String,
@@ -18,7 +20,7 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// None for a row without a size.
+    /// The sort of a row's size; none for a row without a size.
     pub fn from_row(row: &ResultRow) -> Option<Self> {
         row.predicted_mm.map(|_| Self {
             object: row.object.clone(),
@@ -45,7 +47,8 @@ impl Measured {
     }
 }
 
-/// Objects of which there would be no size, and tables that would stay empty: worth knowing, and no loss of data.
+/// The problems of objects that would get no size, and of tables that would stay empty. They are worth knowing, and no loss
+/// of data.
 pub(super) fn problems(study: &Study, measured: &BTreeSet<Measured>) -> Vec<Problem> {
     let measured_objects: BTreeSet<&str> = measured.iter().map(|size| size.object.as_str()).collect();
     let objects = study.objects.keys().filter(|object| !measured_objects.contains(object.as_str()));
@@ -55,7 +58,7 @@ pub(super) fn problems(study: &Study, measured: &BTreeSet<Measured>) -> Vec<Prob
 
 fn never_measured(object: &str) -> Problem {
     note(
-        "object_never_measured",
+        ProblemCode::ObjectNeverMeasured,
         "objects.csv",
         format!("'{object}' has no mark in the study from which a size could be measured"),
         "mark it in at least one picture with a pose, or take it out of objects.csv",
@@ -65,7 +68,7 @@ fn never_measured(object: &str) -> Problem {
 fn empty_table(table: &TableSpec) -> Problem {
     let list = |names: Vec<&str>| if names.is_empty() { "any".to_owned() } else { names.join(", ") };
     note(
-        "table_stays_empty",
+        ProblemCode::TableStaysEmpty,
         "study.toml",
         format!(
             "no size fits table '{}': kinds {}; objects {}; quantities {}; method {}; selection {}",
@@ -80,11 +83,11 @@ fn empty_table(table: &TableSpec) -> Problem {
     )
 }
 
-fn note(code: &str, place: &str, fact: String, remedy: &str) -> Problem {
+fn note(code: ProblemCode, place: &str, fact: String, remedy: &str) -> Problem {
     Problem {
         severity: Severity::Note,
         stage: Stage::Study,
-        code: code.to_owned(),
+        code,
         place: place.to_owned(),
         fact,
         remedy: remedy.to_owned(),

@@ -1,4 +1,4 @@
-//! A drawing and its label become marks of a LabelMe file.
+//! Converts a drawing and its label into marks of a LabelMe file.
 
 use super::foreign::{Annotation, Drawn, Ellipse, Form, NamedPoint};
 use super::label::{Meaning, Names, What};
@@ -7,9 +7,9 @@ use super::named;
 /// A mark as LabelMe has it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConvertedMark {
-    /// `OBJECT/WHAT`.
+    /// The label, `OBJECT/WHAT`.
     pub label: String,
-    /// LabelMe's word: line, polygon, linestrip or points.
+    /// The type in LabelMe's words: line, polygon, linestrip or points.
     pub shape_type: &'static str,
     /// The points, as the tool had them.
     pub points_px: Vec<[f64; 2]>,
@@ -20,22 +20,22 @@ pub struct ConvertedMark {
 pub struct Converted {
     /// The marks.
     pub marks: Vec<ConvertedMark>,
-    /// What was left out of them by the rules of docs/marks.md.
+    /// Notes on points that were left out by the rules of docs/marks.md.
     pub notes: Vec<String>,
 }
 
-/// Points of an ellipse. It was set by 5 numbers: more points would feign that somebody marked each of them.
+/// The number of points of an ellipse. It was set by 5 numbers: more points would feign that somebody marked each of them.
 const ELLIPSE_POINTS: u32 = 8;
 const FEWEST_ELLIPSE_POINTS: usize = 5;
 
-/// Tools round, and let a point lie on the border; further out nobody saw anything.
+/// Tools round, and let a point lie on the border; further out nobody can have seen anything.
 const OUTSIDE_PX: f64 = 1.0;
 
-/// What an annotation means. `picture_px`: width and height of the picture; `with_hidden`: points are taken that are marked
-/// as hidden.
+/// The marks that an annotation means. `picture_px` is the width and height of the picture; `with_hidden` says whether
+/// points that are marked as hidden are taken.
 ///
 /// # Errors
-/// Why it gives no marks: expected and got.
+/// The reason why it gives no marks: what was expected, and what was there.
 pub fn marks_of(
     annotation: &Annotation,
     names: &Names,
@@ -64,7 +64,7 @@ fn one(mark: ConvertedMark) -> Converted {
     Converted { marks: vec![mark], notes: Vec::new() }
 }
 
-/// False for numbers that are none.
+/// Whether a point lies in the picture; false for numbers that are not finite.
 fn is_within(point: [f64; 2], [width, height]: [u32; 2]) -> bool {
     let within = |at: f64, size: u32| (-OUTSIDE_PX..=f64::from(size) + OUTSIDE_PX).contains(&at);
     within(point[0], width) && within(point[1], height)
@@ -109,7 +109,7 @@ impl Form {
     }
 }
 
-/// Where an ellipse runs over the border, nobody saw it: those points are left out.
+/// The outline of an ellipse. Where it runs over the border nobody saw it, so those points are left out.
 fn outline_of(meaning: &Meaning, ellipse: &Ellipse, picture_px: [u32; 2]) -> Result<ConvertedMark, String> {
     let what = what_of(meaning)?;
     let What::Outline(_) = what else {

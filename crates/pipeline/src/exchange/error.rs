@@ -1,11 +1,11 @@
-//! Why marks cannot be carried over at all.
+//! Errors by which marks cannot be carried over at all.
 
 use std::io;
 use std::path::PathBuf;
 
 use crate::labelme::MarksError;
 
-/// Why a file gives or takes no marks. What concerns one annotation is a [`Refused`](super::Refused).
+/// The reason why a file gives or takes no marks. What concerns one annotation is a [`Refused`](super::Refused).
 #[derive(Debug, thiserror::Error)]
 pub enum ExchangeError {
     /// The file cannot be read, or is too large.
@@ -24,7 +24,7 @@ pub enum ExchangeError {
     NotUtf8 {
         /// The file.
         path: PathBuf,
-        /// Of the first odd byte.
+        /// The offset of the first odd byte.
         offset: usize,
     },
     /// It is not well-formed XML.
@@ -32,9 +32,9 @@ pub enum ExchangeError {
     Xml {
         /// The file.
         path: PathBuf,
-        /// Line, from 1.
+        /// The line, from 1.
         line: usize,
-        /// What is wrong.
+        /// The fault.
         fact: String,
     },
     /// It is XML, but not CVAT's.
@@ -42,9 +42,9 @@ pub enum ExchangeError {
     NotCvat {
         /// The file.
         path: PathBuf,
-        /// Line, from 1.
+        /// The line, from 1.
         line: usize,
-        /// What was expected, and what to do.
+        /// The fault: what was expected, and what to do.
         fact: String,
     },
     /// It is not COCO's JSON.
@@ -52,7 +52,7 @@ pub enum ExchangeError {
     Coco {
         /// The file.
         path: PathBuf,
-        /// Why, with line and column.
+        /// The error of the parser, with line and column.
         source: serde_json::Error,
     },
     /// It is a LabelMe file.
@@ -71,7 +71,7 @@ pub enum ExchangeError {
     Session {
         /// The name that was given.
         session: String,
-        /// Those that there are.
+        /// The names that there are.
         known: String,
     },
     /// There is nothing to export.
@@ -79,7 +79,7 @@ pub enum ExchangeError {
     NoMarks {
         /// The name that was given.
         rater: String,
-        /// Those that there are.
+        /// The names that there are.
         known: String,
     },
     /// A file cannot be written.
@@ -87,7 +87,7 @@ pub enum ExchangeError {
     Write {
         /// The file or folder.
         path: PathBuf,
-        /// Why.
+        /// The error of the system.
         source: io::Error,
     },
 }

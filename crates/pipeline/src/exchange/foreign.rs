@@ -1,46 +1,46 @@
-//! What a file of another annotation tool holds, before anybody knows what it means for a study.
+//! The content of a file of another annotation tool, before it is known what it means for a study.
 
 use std::collections::BTreeMap;
 
-/// A file that has been read.
+/// The content of a file.
 #[derive(Debug, Default, PartialEq)]
 pub struct Foreign {
-    /// Pictures in file order, with what is marked on them.
+    /// The pictures in the order of the file, with what is drawn on them.
     pub images: Vec<ForeignImage>,
-    /// What belongs to no picture, or could not be read.
+    /// Annotations that belong to no picture, or could not be read.
     pub refused: Vec<Refused>,
 }
 
-/// Something that was left out, and why.
+/// Something that was left out, with the reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refused {
-    /// Where it stands: a line, an id, an image.
+    /// The place where it stands: a line, an id, an image.
     pub place: String,
-    /// What is wrong (expected and got) and what to do about it.
+    /// The fault (what was expected, and what was there), and what to do about it.
     pub fact: String,
 }
 
 /// A picture that somebody marked.
 #[derive(Debug, PartialEq)]
 pub struct ForeignImage {
-    /// Where it stands in the file.
+    /// The place where it stands in the file.
     pub place: String,
-    /// Its name, often with folders.
+    /// The name, often with folders.
     pub name: String,
-    /// Width and height as the tool saw them.
+    /// The width and height as the tool saw them.
     pub size_px: Option<[u32; 2]>,
-    /// What is drawn on it, in file order.
+    /// The annotations on it, in the order of the file.
     pub annotations: Vec<Annotation>,
 }
 
 /// One thing drawn on a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Annotation {
-    /// Where it stands in the file.
+    /// The place where it stands in the file.
     pub place: String,
-    /// CVAT's label, COCO's category.
+    /// CVAT's label, or COCO's category.
     pub label: String,
-    /// Its attributes.
+    /// The attributes.
     pub attributes: BTreeMap<String, String>,
     /// The drawing.
     pub drawn: Drawn,
@@ -51,12 +51,12 @@ pub struct Annotation {
 pub enum Drawn {
     /// Points in order.
     Points {
-        /// How they hang together.
+        /// The way they are joined.
         form: Form,
         /// The points.
         points_px: Vec<[f64; 2]>,
     },
-    /// Points with names: a skeleton of CVAT, keypoints of COCO.
+    /// Points with names: a skeleton of CVAT, or keypoints of COCO.
     Named(Vec<NamedPoint>),
     /// An ellipse.
     Ellipse(Ellipse),
@@ -64,23 +64,23 @@ pub enum Drawn {
     Unusable(String),
 }
 
-/// How points hang together.
+/// The way the points of a drawing are joined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
     /// A closed line.
     Polygon,
     /// An open line.
     Polyline,
-    /// Not at all.
+    /// Points that are not joined.
     Loose,
 }
 
 /// A point with a name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedPoint {
-    /// Its name in the skeleton.
+    /// The name in the skeleton.
     pub name: String,
-    /// Where it is.
+    /// The place, in pixels of the tool.
     pub point_px: [f64; 2],
     /// Whether it was seen.
     pub sight: Sight,
@@ -89,22 +89,22 @@ pub struct NamedPoint {
 /// Whether a named point was seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sight {
-    /// COCO's visibility 2.
+    /// It was seen: COCO's visibility 2.
     Seen,
-    /// Placed where something hides it: COCO's 1, CVAT's `occluded`.
+    /// It was placed where something hides it: COCO's 1, CVAT's `occluded`.
     Hidden,
-    /// Not there: COCO's 0, CVAT's `outside`.
+    /// It is not there: COCO's 0, CVAT's `outside`.
     Absent,
 }
 
 /// An ellipse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ellipse {
-    /// Its centre.
+    /// The centre.
     pub centre_px: [f64; 2],
-    /// Half axes along x and y, before it is turned.
+    /// The half axes along x and y, before it is turned.
     pub half_axes_px: [f64; 2],
-    /// Turned clockwise about its centre, as one sees it.
+    /// The angle by which it is turned clockwise about its centre, as one sees it.
     pub rotation_rad: f64,
 }
 
@@ -122,7 +122,7 @@ impl Ellipse {
     }
 }
 
-/// As much of a text from outside as a message can hold, on one line.
+/// The part of a text from outside that a message can hold, on one line.
 pub(super) fn short(text: &str) -> String {
     const MOST: usize = 60;
     let start: String = text.chars().take(MOST).collect();

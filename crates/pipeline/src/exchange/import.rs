@@ -1,4 +1,4 @@
-//! Marks of another tool become LabelMe files, `FOLDER/RATER/SESSION/IMAGE.json`.
+//! Imports marks of another tool as LabelMe files, `FOLDER/RATER/SESSION/IMAGE.json`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -13,12 +13,12 @@ use crate::session::Prepared;
 use crate::study::{AUTO, SessionDir, Study, stem_of};
 use crate::write_marks::{picture_for, write_whole};
 
-/// How marks are carried over.
+/// Settings of an import.
 #[derive(Debug, Clone)]
 pub struct ImportOptions {
-    /// Who made the marks.
+    /// The rater who made the marks.
     pub rater: String,
-    /// Folder of marks of all raters.
+    /// The folder of marks of all raters.
     pub folder: PathBuf,
     /// The only session whose images are marked, where that is known.
     pub session: Option<String>,
@@ -32,28 +32,28 @@ pub struct ImportOptions {
     pub force: bool,
     /// Whether to write nothing.
     pub dry_run: bool,
-    /// Program and version, for messages.
+    /// The program and its version, for messages.
     pub program: String,
 }
 
-/// What was carried over, and what was not.
+/// The result of an import.
 #[derive(Debug, Default, PartialEq)]
 pub struct Imported {
-    /// Marks in files that hold what was imported.
+    /// The number of marks in files that now hold what was imported.
     pub marks: usize,
-    /// Files that were written, or would be.
+    /// The number of files that were written, or would be.
     pub written: usize,
-    /// Files that held these marks already.
+    /// The number of files that held these marks already.
     pub unchanged: usize,
-    /// Annotations passed over by [`ImportOptions::ignored`].
+    /// The number of annotations passed over by [`ImportOptions::ignored`].
     pub ignored: usize,
-    /// Annotations, images and files that were left out, in file order.
+    /// The annotations, images and files that were left out, in the order of the file.
     pub refused: Vec<Refused>,
-    /// What is worth knowing, by which nothing was lost.
+    /// Notes on what is worth knowing, by which nothing was lost.
     pub notes: Vec<Refused>,
 }
 
-/// Writes the marks of `file` into LabelMe files. What cannot be used is told, and the rest is used.
+/// Writes the marks of `file` into LabelMe files. What cannot be used is listed in the result, and the rest is used.
 ///
 /// # Errors
 /// [`ExchangeError`] where nothing of the file can be used, or a file cannot be written; what was written until then stays.
@@ -121,7 +121,7 @@ struct Import<'a> {
     options: &'a ImportOptions,
 }
 
-/// A mark, and where it stands.
+/// A mark with the place where it stands.
 struct Placed {
     place: String,
     mark: ConvertedMark,
@@ -172,7 +172,7 @@ impl Import<'_> {
         placed
     }
 
-    /// Writes what LabelMe's reader takes: the same rules hold for marks of all tools.
+    /// Writes the marks that LabelMe's reader takes, since the same rules hold for marks of all tools.
     fn write(
         &self,
         image: &ForeignImage,
@@ -214,7 +214,7 @@ impl Import<'_> {
     }
 }
 
-/// The marks that LabelMe's reader takes; what it refuses is told by the place in the file.
+/// The marks that LabelMe's reader takes. What it refuses is listed by its place in the file of the other tool.
 fn accepted(
     placed: Vec<Placed>,
     target: &Target<'_>,
@@ -248,7 +248,7 @@ struct Target<'a> {
     file: &'a str,
 }
 
-/// What a file holds already.
+/// The content of a file that is there already.
 #[derive(PartialEq)]
 enum There {
     Marks(Vec<model::ObjectMarks>),
@@ -258,7 +258,7 @@ enum There {
 
 impl<'a> Target<'a> {
     fn new(options: &ImportOptions, dir: &'a SessionDir, prepared: &'a Prepared, file: &'a str) -> Self {
-        // The folder's own name, whatever bytes it consists of.
+        // This is the folder's own name, whatever bytes it consists of.
         let session = dir.card.as_deref().and_then(Path::file_name).unwrap_or(dir.name.as_ref());
         let folder = options.folder.join(&options.rater).join(session);
         let path = folder.join(format!("{}.json", stem_of(file)));
@@ -269,7 +269,7 @@ impl<'a> Target<'a> {
         self.prepared.marks_camera.1.size_px()
     }
 
-    /// The way to the picture is known once there is a folder for the marks.
+    /// The text of the file. It holds the way to the picture, which is known once there is a folder for the marks.
     fn text(&self, placed: &[Placed]) -> Result<String, ExchangeError> {
         let shapes = placed.iter().map(|Placed { mark, .. }| {
             let ConvertedMark { label, shape_type, points_px } = mark;

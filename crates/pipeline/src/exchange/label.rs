@@ -1,4 +1,4 @@
-//! What a label of another tool means: which object of the study, and what of it.
+//! The meaning of a label of another tool: which object of the study, and what of it.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -8,14 +8,14 @@ use model::{Feature, Quantity};
 
 use super::foreign::{Annotation, short};
 
-/// Attributes that say what a label leaves out.
+/// The attributes that say what a label leaves out.
 const OBJECT: &str = "object";
 const WHAT: &str = "what";
 
-/// How many names a message lists.
+/// The number of names that a message lists.
 const MOST_LISTED: usize = 20;
 
-/// What can be marked.
+/// A thing that can be marked: a line that is a quantity, or the outline of a feature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum What {
     Line(Quantity),
@@ -45,12 +45,12 @@ pub(super) fn all_codes() -> String {
     What::all().map(What::code).collect::<Vec<_>>().join(", ")
 }
 
-/// What a label says.
+/// The meaning of a label.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Meaning {
-    /// Of objects.csv.
+    /// The object of objects.csv.
     pub object: String,
-    /// None where the names of a skeleton's points must say it.
+    /// The thing that is marked; none where the names of a skeleton's points must say it.
     pub what: Option<What>,
 }
 
@@ -60,18 +60,19 @@ pub struct Names {
     objects: Vec<String>,
     /// Labels of the file, with what they stand for.
     renamed: BTreeMap<String, String>,
-    /// What was told of labels that are unclear: there are few, on many annotations.
-    told: RefCell<BTreeMap<String, String>>,
+    /// The messages on labels that are unclear: there are few of them, on many annotations.
+    messages: RefCell<BTreeMap<String, String>>,
 }
 
 impl Names {
-    /// `objects`: those of objects.csv. `renamed`: labels of the file, each with the label that it stands for.
+    /// The names that labels may use: `objects` are those of objects.csv, `renamed` holds labels of the file, each with the
+    /// label that it stands for.
     pub fn new<'a>(objects: impl IntoIterator<Item = &'a String>, renamed: BTreeMap<String, String>) -> Self {
-        Self { objects: objects.into_iter().cloned().collect(), renamed, told: RefCell::default() }
+        Self { objects: objects.into_iter().cloned().collect(), renamed, messages: RefCell::default() }
     }
 
     /// # Errors
-    /// What is unclear, and what was expected.
+    /// A text that says what is unclear, and what was expected.
     pub(super) fn meaning(&self, annotation: &Annotation) -> Result<Meaning, String> {
         let label = self.renamed.get(&annotation.label).unwrap_or(&annotation.label);
         let attribute = |key: &str| annotation.attributes.get(key).map(String::as_str);
@@ -118,10 +119,10 @@ impl Names {
         self.once(label, fact)
     }
 
-    /// What is told of a label, worked out once.
+    /// The message on a label, worked out once.
     fn once(&self, label: &str, fact: impl Fn(&str) -> String) -> String {
         let label = short(label);
-        self.told.borrow_mut().entry(label.clone()).or_insert_with(|| fact(&label)).clone()
+        self.messages.borrow_mut().entry(label.clone()).or_insert_with(|| fact(&label)).clone()
     }
 
     fn listed(&self) -> String {

@@ -1,10 +1,10 @@
-//! Marks from and to files of other annotation tools: CVAT's XML, COCO's JSON (docs/marks.md).
+//! Carries marks from and to files of other annotation tools: CVAT's XML, COCO's JSON (docs/marks.md).
 //!
-//! [`read`] gives what a file holds, [`marks_of`] what one annotation means, [`import`] writes LabelMe files of it, which
-//! alone are measured by. [`export`] goes the other way.
+//! [`read`] gives the content of a file, and [`marks_of`] the marks that one annotation means. [`import()`] writes them as
+//! LabelMe files, the only ones that sizes are measured from. [`export()`] goes the other way.
 //!
-//! LabelMe, CVAT and the tools that write COCO put (0, 0) at the corner of the first pixel: coordinates are carried over as
-//! they are.
+//! LabelMe, CVAT and the tools that write COCO all put (0, 0) at the corner of the first pixel, so coordinates are carried
+//! over unchanged.
 
 mod coco;
 mod convert;
@@ -26,7 +26,7 @@ pub use foreign::{Annotation, Drawn, Ellipse, Foreign, ForeignImage, Form, Named
 pub use import::{ImportOptions, Imported, import};
 pub use label::Names;
 
-/// Reads the bytes of a file: XML of CVAT or JSON of COCO, whichever it is. `path` is for messages.
+/// The content of a file, by its bytes: XML of CVAT or JSON of COCO, whichever it is. `path` is for messages.
 ///
 /// # Errors
 /// [`ExchangeError`] where nothing of the file can be used. What concerns one annotation is in [`Drawn::Unusable`].

@@ -1,4 +1,4 @@
-//! Points with names, of CVAT's skeletons and COCO's keypoints: which of them are a line, which an outline.
+//! Points with names, of CVAT's skeletons and COCO's keypoints: which of them are a line, and which an outline.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use super::label::{What, all_codes};
 /// Points that are one mark.
 pub(super) struct Group {
     pub what: What,
-    /// Those that are there, in order.
+    /// The points that are there, in order.
     points: Vec<([f64; 2], Sight)>,
 }
 
@@ -18,7 +18,7 @@ impl Group {
     /// The points of the mark, and how many hidden ones were left out.
     ///
     /// # Errors
-    /// Where an end of a line is missing or hidden, or a line has more ends than two.
+    /// A text, where an end of a line is missing or hidden, or a line has more ends than two.
     pub fn taken(&self, with_hidden: bool) -> Result<(Vec<[f64; 2]>, usize), String> {
         let is_taken = |sight: Sight| with_hidden || sight == Sight::Seen;
         let taken: Vec<_> = self.points.iter().filter(|(_, sight)| is_taken(*sight)).map(|(point, _)| *point).collect();
@@ -36,15 +36,15 @@ impl Group {
     }
 }
 
-/// A point's name, taken apart.
+/// The parts of a point's name.
 struct Name<'a> {
     what: Option<What>,
-    /// What follows it: a number, an end.
+    /// The text that follows: a number, or an end.
     rest: &'a str,
 }
 
 impl<'a> Name<'a> {
-    /// `WHAT`, `WHAT_REST` (or with `-`, `.`, a space), or REST alone.
+    /// The parts of `WHAT`, `WHAT_REST` (or with `-`, `.`, a space), or REST alone.
     fn parse(name: &'a str) -> Self {
         for what in What::all() {
             if let Some(rest) = name.strip_prefix(what.code()) {
@@ -58,10 +58,10 @@ impl<'a> Name<'a> {
     }
 }
 
-/// Points of a skeleton by what they mark. `of_label`: what the label says that they are.
+/// The points of a skeleton by what they mark; `of_label` is what the label says that they are.
 ///
 /// # Errors
-/// A name that is unclear, with what was expected.
+/// A text on a name that is unclear, with what was expected.
 pub(super) fn groups(points: &[NamedPoint], of_label: Option<What>) -> Result<Vec<Group>, String> {
     let mut by_what: BTreeMap<What, Vec<(&str, &NamedPoint)>> = BTreeMap::new();
     for point in points.iter().filter(|point| point.sight != Sight::Absent) {
@@ -90,7 +90,7 @@ fn unclear(name: &str) -> String {
     )
 }
 
-/// By number where all have one; heights by their ends; else as they stand.
+/// The points in order: by number where all have one, heights by their ends, else as they stand.
 fn in_order(what: What, mut points: Vec<(&str, &NamedPoint)>) -> Result<Vec<([f64; 2], Sight)>, String> {
     let numbers: Option<Vec<u64>> = points.iter().map(|(rest, _)| rest.parse().ok()).collect();
     if let Some(numbers) = numbers {

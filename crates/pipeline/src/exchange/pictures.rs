@@ -1,4 +1,4 @@
-//! Which picture of the study an image of another tool is.
+//! Decides which picture of the study an image of another tool is.
 
 use std::collections::BTreeMap;
 
@@ -10,16 +10,16 @@ use crate::study::{SessionDir, Study, stem_of};
 /// A session whose pictures may be marked.
 pub(super) struct MarkedSession<'a> {
     pub dir: &'a SessionDir,
-    /// What is known of it, or why nothing is.
+    /// The session before its card is read, or the reason why it cannot be used.
     pub prepared: Result<Prepared, String>,
 }
 
 /// A picture of a card.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Picture {
-    /// Number of its session in [`Pictures::sessions`].
+    /// The number of its session in [`Pictures::sessions`].
     pub session: usize,
-    /// Its file on the card.
+    /// The file on the card.
     pub file: String,
 }
 
@@ -32,7 +32,7 @@ pub(super) struct Pictures<'a> {
 }
 
 impl<'a> Pictures<'a> {
-    /// Lists the cards of all sessions, or of one. What is wrong with a card is told when one of its pictures is asked for.
+    /// The pictures of all sessions, or of one. A fault of a card shows when one of its pictures is asked for.
     pub fn list(study: &'a Study, only: Option<&str>, program: &str) -> Self {
         let mut pictures = Self::default();
         let patterns = study.profile.images.as_ref().and_then(|images| Patterns::new(&images.files).ok());
@@ -51,18 +51,18 @@ impl<'a> Pictures<'a> {
         pictures
     }
 
-    /// Of the session that is pushed next.
+    /// Adds a picture of the session that is pushed next.
     fn add(&mut self, file: String) {
         let session = self.sessions.len();
         self.by_stem.entry(stem_of(&file)).or_default().push(Picture { session, file });
         self.count += 1;
     }
 
-    /// The picture that a name with folders means: the one of this name; of several, the one in the session that a folder of
+    /// The picture that a name with folders means. If several have the name, it is the one in the session that a folder of
     /// the name is called after, else the one whose own folders agree best.
     ///
     /// # Errors
-    /// None, or several: which.
+    /// A text, where there is none, or several.
     pub fn find(&self, name: &str) -> Result<&Picture, String> {
         let name = name.replace('\\', "/");
         let mut parts: Vec<&str> = name.split('/').filter(|part| !matches!(*part, "" | ".")).collect();
@@ -89,7 +89,7 @@ impl<'a> Pictures<'a> {
         }
     }
 
-    /// Pictures of this name but for the extension, which may be another, or missing.
+    /// The pictures of this name, whatever the extension, which may be another, or missing.
     fn of_name(&self, name: &str) -> &[Picture] {
         let of_stem = self.by_stem.get(&stem_of(name)).or_else(|| self.by_stem.get(name));
         of_stem.map(Vec::as_slice).unwrap_or_default()
@@ -98,7 +98,7 @@ impl<'a> Pictures<'a> {
     /// The picture of a session that a file of marks belongs to.
     ///
     /// # Errors
-    /// None, or several: which.
+    /// A text, where there is none, or several.
     pub fn of_marks(&self, session: usize, stem: &str) -> Result<&Picture, String> {
         let of_stem = self.by_stem.get(stem).map(Vec::as_slice).unwrap_or_default();
         let picture = of_stem.iter().find(|picture| picture.session == session);
@@ -107,7 +107,7 @@ impl<'a> Pictures<'a> {
             .and_then(|p| self.unless_same_stem(p, of_stem))
     }
 
-    /// Marks are found by the name of the image without its extension, within a session.
+    /// Marks have the name of their image without its extension, within a session.
     fn unless_same_stem<'p>(&'p self, picture: &'p Picture, of_name: &[Picture]) -> Result<&'p Picture, String> {
         let same: Vec<&Picture> = of_name.iter().filter(|other| other.session == picture.session).collect();
         if same.len() == 1 {
@@ -149,7 +149,7 @@ impl<'a> Pictures<'a> {
         }
     }
 
-    /// `SESSION/FILE`.
+    /// The place of a picture: `SESSION/FILE`.
     pub fn place(&self, picture: &Picture) -> String {
         format!("{}/{}", self.session_name(picture.session), picture.file)
     }

@@ -1,4 +1,4 @@
-//! Marks carried from one picture to another.
+//! Carries marks from one picture to another.
 
 use ingest::Picture;
 use model::{GalleryMark, resampled_px};
@@ -11,7 +11,7 @@ pub(super) struct MarkedPicture {
     pub marks: Vec<GalleryMark>,
 }
 
-/// The marks where `place` says that their points are; those with a point that is nowhere are left out.
+/// The marks with their points where `place` puts them. A mark with a point that has no place is left out.
 pub(super) fn carried(shown: &ShownImage, place: impl Fn([f64; 2]) -> Option<[f64; 2]>) -> Vec<GalleryMark> {
     let hundredths = |point: [f64; 2]| point.map(|c| (c * 100.0).round() / 100.0);
     let of_object = |object: &ShownObject| {

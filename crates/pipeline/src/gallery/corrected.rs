@@ -12,7 +12,7 @@ use crate::session::ShownImage;
 /// A wide lens is cut rather than shown smaller than this beside the picture as it was taken.
 const LEAST_ZOOM: f64 = 0.5;
 
-/// None where the camera shows nothing in front of it.
+/// The corrected picture with its marks; none where the camera shows nothing in front of it.
 pub(super) fn undistort(source: &Picture, camera: &Camera, shown: &ShownImage) -> Option<MarkedPicture> {
     let straight = straight(camera)?;
     let picture = resample(source, straight.size_px(), |x, y| {

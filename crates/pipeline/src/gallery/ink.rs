@@ -1,4 +1,4 @@
-//! Lines and letters on a small picture.
+//! Draws lines and letters on a small picture.
 
 use embedded_graphics::Drawable as _;
 use embedded_graphics::mono_font::{MonoTextStyle, MonoTextStyleBuilder, ascii};
@@ -8,27 +8,27 @@ use ingest::Picture;
 
 use crate::overlay::{Canvas, pixel};
 
-/// Blue and yellow are seen on white plates and on dark tables; the line takes turns.
+/// The colours of the dashes, in turns: blue shows on white plates, yellow on dark tables.
 const DASHES: [[u8; 3]; 2] = [[0, 90, 180], [250, 230, 60]];
 const DASH_PX: usize = 4;
-/// Share of the line's own colour.
+/// The share of the line's own colour, in per cent.
 const WEIGHT: u32 = 60;
 
-/// A dashed line down the picture at `x`, through which it is seen.
+/// Draws a dashed line down the picture at `x`, through which the picture shows.
 pub(super) fn dashed_vertical(picture: &mut Picture, x: f64) {
     for y in 0..picture.height_px as usize {
         blend(picture, whole(x), Some(y), y);
     }
 }
 
-/// A dashed line across the picture at `y`.
+/// Draws a dashed line across the picture at `y`.
 pub(super) fn dashed_horizontal(picture: &mut Picture, y: f64) {
     for x in 0..picture.width_px as usize {
         blend(picture, Some(x), whole(y), x);
     }
 }
 
-/// A line of text (ASCII) that begins at `place`, on its base line. What lies outside is cut off.
+/// Draws a line of text (ASCII) that begins at `place`, on its base line. What lies outside is cut off.
 pub(super) fn letters(picture: &mut Picture, [x, y]: [f64; 2], text: &str) {
     let style: MonoTextStyle<'_, Rgb888> = MonoTextStyleBuilder::new()
         .font(&ascii::FONT_6X10)

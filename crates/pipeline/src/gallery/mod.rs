@@ -1,5 +1,5 @@
-//! Pictures for a report: every measured one made small, with its marks; and of the surest one of some sessions also the
-//! picture with its lens corrected, and projected on the table (Figs. 9 to 12 of the paper).
+//! Makes the pictures of a report: every measured picture made small, with its marks; for some sessions also the surest one
+//! with its lens corrected, and projected on the table (Figs. 9 to 12 of the paper).
 
 mod carried_marks;
 mod corrected;
@@ -26,50 +26,51 @@ use crate::stop::Stop;
 use crate::work::{State, recording_of, state_file};
 use carried_marks::MarkedPicture;
 
-/// Sessions of which the corrected and the projected picture are made.
+/// The number of sessions of which the corrected and the projected picture are made.
 const EXEMPLARY_SESSIONS: usize = 12;
 /// A decoded picture has three bytes per pixel; its reduced copies are small beside it.
 const BYTES_PER_PIXEL: u64 = 4;
-/// Pictures that are read, per thread, before any of them is handed on.
+/// The number of pictures that are read, per thread, before any of them is handed on.
 const AHEAD: usize = 4;
 
-/// Where pictures come from.
+/// The source of the pictures, and the bounds of the work.
 #[derive(Debug, Clone)]
 pub struct GalleryOptions<'a> {
-    /// Work folder of the run whose results are reported.
+    /// The work folder of the run whose results are reported.
     pub work_dir: &'a Path,
     /// The sessions of these results.
     pub sessions: &'a [SessionStatus],
-    /// Pictures at a time; none for [`default_jobs`](crate::default_jobs).
+    /// The number of pictures at a time; none for [`default_jobs`](crate::default_jobs).
     pub jobs: Option<NonZeroUsize>,
-    /// Bound of the decoded pictures in memory at once. One is always let through.
+    /// The bound of the decoded pictures in memory at once. One is always let through.
     pub image_memory_bytes: u64,
-    /// A wish to stop.
+    /// The wish to stop, from a signal or from inside.
     pub stop: Stop,
 }
 
-/// What was made.
+/// The result of a gallery.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Gallery {
-    /// Pictures that the sink took.
+    /// The number of pictures that the sink took.
     pub pictures: usize,
-    /// What could not be shown.
+    /// The pictures that could not be shown.
     pub not_shown: Vec<NotShown>,
 }
 
 /// A picture, or all those of a session, that could not be shown.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NotShown {
-    /// Its session.
+    /// The name of the session.
     pub session: String,
-    /// File of the image, relative to the card; none for the session as a whole.
+    /// The file of the image, relative to the card; none for the session as a whole.
     pub image: Option<String>,
-    /// Why.
+    /// The reason.
     pub fact: String,
 }
 
-/// Makes the pictures of a study from what its run has kept: sessions in the order given, in each by image, then by view. A
-/// picture that cannot be shown is told and passed over. Memory is bounded by the budget, and some small pictures.
+/// Makes the pictures of a study from the output that its run has kept: sessions in the order given, in each by image, then
+/// by view. A picture that cannot be shown is listed and passed over. Memory is bounded by the budget, plus some small
+/// pictures.
 ///
 /// # Errors
 /// [`GalleryError`] where there is no work folder to take pictures from, or the sink refuses one.
@@ -102,7 +103,7 @@ struct Maker<'a> {
     pool: rayon::ThreadPool,
     budget: ByteBudget,
     reporter: &'a dyn Reporter,
-    /// Sessions that have had their exemplary picture.
+    /// The number of sessions that have had their exemplary picture.
     exemplary: usize,
     made: Gallery,
 }
@@ -118,7 +119,7 @@ struct Subject<'a> {
 }
 
 impl Maker<'_> {
-    /// All pictures of a session; the inner error says why there are none.
+    /// Makes all pictures of a session; the inner error says why there are none.
     fn session<S: GallerySink>(
         &mut self,
         status: &SessionStatus,
@@ -152,7 +153,7 @@ impl Maker<'_> {
         Ok(Ok(()))
     }
 
-    /// In the order of the images' names.
+    /// The pictures to be made, in the order of the images' names.
     fn subjects<'s>(&self, name: &'s str, output: &'s SessionOutput, images: &'s [ImageEntry]) -> Vec<Subject<'s>> {
         let by_file: BTreeMap<&str, &ImageEntry> = images.iter().map(|image| (image.file.as_str(), image)).collect();
         let surest = surest(&output.shown, &output.frames).filter(|_| self.exemplary < EXEMPLARY_SESSIONS);
@@ -216,7 +217,7 @@ impl Subject<'_> {
         BYTES_PER_PIXEL * u64::from(self.image.width_px) * u64::from(self.image.height_px)
     }
 
-    /// Its picture, and of an exemplary one all three.
+    /// The small picture; for an exemplary one all three views.
     fn pictures(&self, bytes: &[u8]) -> Result<Vec<GalleryPicture>, String> {
         let picture = Picture::decode(bytes).map_err(|error| error.to_string())?;
         let (size_px, expected_px) = ([picture.width_px, picture.height_px], self.view.camera().size_px());

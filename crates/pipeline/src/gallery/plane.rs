@@ -10,26 +10,26 @@ use super::resample::resample;
 use super::small::SIDE_PX;
 use crate::session::ShownImage;
 
-/// Room around what was marked, as a share of its extent, and at least in mm.
+/// The room around the marks, as a share of their extent, and at least in mm.
 const MARGIN: f64 = 0.15;
 const LEAST_MARGIN_MM: f64 = 40.0;
-/// Tables are not larger; a mark near the horizon is further away than that.
+/// No table is larger; a mark near the horizon is further away than that.
 const MOST_MM: f64 = 1500.0;
-/// Distances between lines, and how many there are at most.
+/// The distances between lines that are used, and the greatest number of lines.
 const SPACINGS_MM: [f64; 6] = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
 const MOST_LINES: f64 = 11.0;
 
-/// A level rectangle on the table, and how large its picture is.
+/// A level rectangle on the table, with the size of its picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Sheet {
-    /// World X of the left border, and Y of the upper one, which is further away.
+    /// World X of the left border, and Y of the upper border, which is further away.
     left_mm: f64,
     far_mm: f64,
     mm_per_px: f64,
     size_px: [u32; 2],
 }
 
-/// None where nothing of what was marked lies on the table before the camera.
+/// The projected picture with its marks; none where no mark lies on the table in front of the camera.
 pub(super) fn project(source: &Picture, view: &View, shown: &ShownImage) -> Option<MarkedPicture> {
     let on_table = |[x, y]: [f64; 2]| view.on_plane(Point2::new(x, y), 0.0).ok();
     let marks = shown.objects.iter().flat_map(|object| &object.marks);
@@ -44,7 +44,7 @@ pub(super) fn project(source: &Picture, view: &View, shown: &ShownImage) -> Opti
     Some(MarkedPicture { picture, marks })
 }
 
-/// The points of a mark; of a line also the circle that it is a diameter of, since what was measured is as long as wide.
+/// The points of a mark; for a line also the circle whose diameter it is, since the object is as long as it is wide.
 fn with_object(mut points_mm: Vec<Point2<f64>>) -> Vec<Point2<f64>> {
     if let &[a, b] = points_mm.as_slice() {
         let (center, radius) = (nalgebra::center(&a, &b), 0.5 * (b - a).norm());
@@ -68,7 +68,7 @@ impl Sheet {
         }
         let margin = (MARGIN * extent.max().min(MOST_MM)).max(LEAST_MARGIN_MM);
         let sides_mm = extent.map(|side| (side + 2.0 * margin).min(MOST_MM));
-        // What is cut off is what lies furthest away; aside it is cut on both sides.
+        // What lies furthest away is cut off; to the sides, both are cut alike.
         let left_mm = 0.5 * (low.x + high.x) - 0.5 * sides_mm.x;
         let far_mm = low.y - margin + sides_mm.y;
         let mm_per_px = sides_mm.max() / f64::from(SIDE_PX);
@@ -89,8 +89,8 @@ impl Sheet {
         SPACINGS_MM.into_iter().find(wide_enough).unwrap_or(SPACINGS_MM[SPACINGS_MM.len() - 1])
     }
 
-    /// Lines at whole multiples of the spacing, with their distance from the point under the camera: aside along the lower
-    /// border, ahead along the left one.
+    /// Draws lines at whole multiples of the spacing, labelled with their distance from the point under the camera: sideways
+    /// along the lower border, ahead along the left one.
     fn draw_grid(&self, picture: &mut Picture) {
         let spacing_mm = self.spacing_mm();
         let [width, height] = self.size_px.map(f64::from);
@@ -109,7 +109,7 @@ impl Sheet {
     }
 }
 
-/// Whole multiples of `step` between two numbers.
+/// The whole multiples of `step` between two numbers.
 fn multiples(step: f64, from: f64, to: f64) -> impl Iterator<Item = f64> {
     let first = (from / step).ceil();
     (0..).map(move |i: u32| (first + f64::from(i)) * step).take_while(move |multiple| *multiple <= to)

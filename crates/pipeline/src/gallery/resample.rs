@@ -1,12 +1,12 @@
-//! Pictures from pictures, pixel by pixel.
+//! Makes pictures from pictures, pixel by pixel.
 
 use ingest::Picture;
 use model::View;
 use nalgebra::Point2;
 
-/// The longer side of the picture that others are made from: more would be lost in them again, and take time.
+/// The longer side of the picture from which others are made. More would be lost again in those, and take time.
 const SOURCE_SIDE_PX: u32 = 1600;
-/// What no pixel of the source shows.
+/// The colour of a place that no pixel of the source shows.
 const NOTHING: [u8; 3] = [96, 96, 96];
 
 /// The picture and its view, reduced; none where nothing is left of a side.
@@ -29,7 +29,7 @@ pub(super) fn resample(source: &Picture, size_px: [u32; 2], at: impl Fn(f64, f64
     Picture { width_px, height_px, rgb }
 }
 
-/// None outside the picture: beyond half a pixel from the centres of its outermost pixels.
+/// The colour at a place, bilinear; none outside the picture, beyond half a pixel from the centres of its outermost pixels.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the picture, and 0 to 255")]
 fn sample(source: &Picture, place: Point2<f64>) -> Option<[u8; 3]> {
     let last = [source.width_px, source.height_px].map(|side| f64::from(side) - 1.0);

@@ -8,10 +8,10 @@ use crate::session::ShownImage;
 
 /// The longer side of a picture as it is shown.
 pub(super) const SIDE_PX: u32 = 640;
-/// Of its JPEG file: about 40 kB.
+/// The quality of its JPEG file: about 40 kB.
 pub(super) const QUALITY: u8 = 75;
 
-/// `view`: of this picture. None where nothing is left of a side.
+/// The small picture with its marks; `view` is that of the whole picture. None where nothing is left of a side.
 pub(super) fn reduce(picture: Picture, view: &View, shown: &ShownImage) -> Option<MarkedPicture> {
     let picture = picture.reduced(SIDE_PX);
     let size_px = [picture.width_px, picture.height_px];

@@ -1,4 +1,4 @@
-//! The accelerometer: how long gravity is, and where the camera looked.
+//! The facts of the accelerometer: the length of gravity, and the directions in which the camera looked.
 
 use ingest::timeline::StreamFacts;
 use ingest::{ReadError, SessionReader};
@@ -11,31 +11,32 @@ use super::clock::ClockFacts;
 use super::histogram::Histogram;
 use crate::signals::down_in_camera;
 
-/// Bins of the camera's pitch: 0 to 90 degrees.
+/// The bins of the camera's pitch: 0 to 90 degrees.
 const PITCH_BIN_DEG: f64 = 5.0;
 const PITCH_BINS: u32 = 18;
-/// The median length is known to this.
+/// The resolution of the median length.
 const LENGTH_BIN_MG: f64 = 0.1;
-/// Lengths up to 4 g are told apart; a median of more is none.
+/// Lengths up to 4 g are counted; a longer median is not known.
 const LENGTH_BINS: u32 = 40_000;
-/// A second has no more samples than this; more (stamps that do not move) are taken as another.
+/// No second has more samples than this. More (stamps that do not move) count as another second.
 const LARGEST_SECOND: usize = 1 << 16;
 
 const NS_PER_S: i64 = 1_000_000_000;
 
-/// What the accelerometer recorded.
+/// The facts of an accelerometer's recording.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AccelerationFacts {
-    /// Its clock.
+    /// The facts of its clock.
     pub clock: ClockFacts,
-    /// Median length of the specific force, to 0.1 mg, in 1/1000 of standard gravity; none without samples, or above 4 g.
+    /// The median length of the specific force, to 0.1 mg, in 1/1000 of standard gravity; none without samples, or above 4
+    /// g.
     pub length_median_mg: Option<f64>,
-    /// Pitch of the camera in degrees, of the medians of x, y and z over each second: depression of its axis below the
-    /// horizontal, the mount offset added.
+    /// The pitch of the camera in degrees, by the medians of x, y and z over each second: the depression of its axis below
+    /// the horizontal, with the mount offset added.
     pub pitch_deg: Histogram,
 }
 
-/// Streams the accelerometer's samples. None where the profile declares none.
+/// The facts of the accelerometer's samples, streamed. None where the profile declares no accelerometer.
 pub(super) fn read(
     reader: &mut SessionReader,
     facts: Option<&StreamFacts>,
@@ -57,7 +58,7 @@ pub(super) fn read(
     }))
 }
 
-/// Pitch second by second; holds the samples of one second.
+/// The pitch second by second; holds the samples of one second.
 struct Pitches {
     mount_pitch_rad: f64,
     second: i64,

@@ -1,4 +1,4 @@
-//! Channels that are carried along and not used.
+//! The facts of channels that are carried along and not used.
 
 use ingest::profile::Profile;
 use ingest::{ReadError, SessionReader};
@@ -11,25 +11,25 @@ use super::local_time::LocalSpan;
 /// A channel that is carried along. Its clock is that of the sensor whose files it stands in.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ExtraFacts {
-    /// Name, as the profile declares it; its topic is /extra/NAME.
+    /// The name, as the profile declares it; the topic is /extra/NAME.
     pub name: String,
-    /// `acceleration` or `range`: the sensor whose files it stands in.
+    /// The sensor whose files it stands in: `acceleration` or `range`.
     pub sensor: Option<&'static str>,
-    /// Samples, those without a value included.
+    /// The number of samples, including those without a value.
     pub samples: u64,
-    /// Samples without a value.
+    /// The number of samples without a value.
     pub missing_samples: u64,
-    /// From the first sample to the last.
+    /// The time from the first sample to the last.
     pub recorded: Option<LocalSpan>,
-    /// Least value, as the device counts it.
+    /// The least value, as the device counts it.
     pub least: Option<f64>,
-    /// Mean value, likewise.
+    /// The mean value, as the device counts it.
     pub mean: Option<f64>,
-    /// Greatest value, likewise.
+    /// The greatest value, as the device counts it.
     pub greatest: Option<f64>,
 }
 
-/// Streams each channel that is carried along.
+/// The facts of each channel that is carried along, streamed one after the other.
 pub(super) fn read(reader: &mut SessionReader, zone: &TimeZone) -> Result<Vec<ExtraFacts>, ReadError> {
     let names = reader.extra_channels();
     names.into_iter().map(|name| read_one(reader, name, zone)).collect()

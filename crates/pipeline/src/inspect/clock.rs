@@ -1,4 +1,4 @@
-//! What a sensor's clock did, for people and programs.
+//! The facts of a sensor's clock, for people and programs.
 
 use ingest::timeline::{Span, StreamFacts, Timeline};
 use jiff::tz::TimeZone;
@@ -6,61 +6,61 @@ use serde::Serialize;
 
 use super::local_time::{LocalSpan, Moment};
 
-/// Gaps, clock jumps, stretches and ambiguous spans that are listed; more are only counted.
+/// The number of gaps, clock jumps, stretches and ambiguous spans that are listed; more are only counted.
 pub const LISTED: usize = 5;
 
-/// What a sensor's clock did.
+/// The facts of a sensor's clock.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ClockFacts {
-    /// Samples used.
+    /// The number of samples that are used.
     pub samples: u64,
-    /// Samples that the files mark as missing.
+    /// The number of samples that the files mark as missing.
     pub missing_samples: u64,
-    /// Bytes of the sensor's files that gave nothing: damage, not headers.
+    /// The number of bytes of the sensor's files that gave nothing: damage, not headers.
     pub lost_bytes: u64,
-    /// From the first sample to the last.
+    /// The time from the first sample to the last.
     pub recorded: Option<LocalSpan>,
     /// The rate that the profile declares.
     pub nominal_rate_hz: f64,
-    /// The rate that the stamps give, gaps and clock jumps left out; none where they give none.
+    /// The rate by the stamps, without gaps and clock jumps; none where they give none.
     pub measured_rate_hz: Option<f64>,
-    /// Shortest step between samples, gaps and clock jumps left out.
+    /// The shortest step between samples, without gaps and clock jumps.
     pub shortest_step_s: Option<f64>,
-    /// Longest step likewise.
+    /// The longest step between samples, without gaps and clock jumps.
     pub longest_step_s: Option<f64>,
-    /// Steps that are longer than they may be.
+    /// The steps that are longer than they may be.
     pub gaps: Gaps,
-    /// Packets, or batches of rows, that were there twice and are used once.
+    /// The number of packets, or batches of rows, that were there twice and are used once.
     pub duplicate_blocks: u64,
-    /// Packets, or batches of rows, that came after later ones, and were put in order.
+    /// The number of packets, or batches of rows, that came after later ones and were put in order.
     pub reordered_blocks: u64,
-    /// Packets, or rows, that are left out because their times fit nothing around them.
+    /// The number of packets, or rows, that are left out because their times fit nothing around them.
     pub misplaced_blocks: u64,
-    /// Where the clock was set while recording went on.
+    /// The places where the clock was set while recording went on.
     pub clock_jumps: Jumps,
-    /// Pieces of one time line each: one more than clock jumps.
+    /// The pieces of one time line each: one more than there are clock jumps.
     pub stretches: Stretches,
 }
 
 /// Gaps between samples.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Gaps {
-    /// Longer steps are gaps.
+    /// Steps longer than this are gaps.
     pub longer_than_s: f64,
-    /// How many.
+    /// The number of them.
     pub count: u64,
-    /// Seconds in all.
+    /// The seconds of all of them together.
     pub total_s: f64,
-    /// The longest (of the first thousand), longest first; at most [`LISTED`].
+    /// The longest ones (of the first thousand), longest first; at most [`LISTED`].
     pub longest: Vec<LocalSpan>,
 }
 
 /// Clock jumps.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Jumps {
-    /// How many.
+    /// The number of them.
     pub count: u64,
-    /// The first; at most [`LISTED`].
+    /// The first ones; at most [`LISTED`].
     pub first: Vec<Jump>,
 }
 
@@ -69,25 +69,25 @@ pub struct Jumps {
 pub struct Jump {
     /// The last time before it.
     pub after: Moment,
-    /// By how much it was set; negative for back.
+    /// The seconds by which it was set; negative for back.
     pub by_s: f64,
 }
 
 /// Stretches of one time line each.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Stretches {
-    /// How many; from a thousand on, not counted further.
+    /// The number of stretches; it is counted up to a thousand.
     pub count: usize,
-    /// The first; at most [`LISTED`].
+    /// The first ones; at most [`LISTED`].
     pub first: Vec<LocalSpan>,
 }
 
 /// Times that exist twice because a clock was set back.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Ambiguous {
-    /// How many spans.
+    /// The number of spans.
     pub count: usize,
-    /// Seconds in all.
+    /// The seconds of all of them together.
     pub total_s: f64,
     /// The first spans; at most [`LISTED`].
     pub first: Vec<LocalSpan>,
@@ -118,7 +118,7 @@ impl ClockFacts {
 impl Ambiguous {
     pub(super) fn new(timeline: &Timeline, zone: &TimeZone) -> Self {
         let spans = &timeline.ambiguous;
-        // Not the iterator's own sum: of nothing, that is -0.
+        // The iterator's own sum of nothing would be -0.
         let total_s = spans.iter().map(Span::seconds).fold(0.0, |sum, seconds| sum + seconds);
         Self { count: spans.len(), total_s, first: first(spans, zone) }
     }

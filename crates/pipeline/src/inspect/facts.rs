@@ -1,4 +1,4 @@
-//! All that is told of one session.
+//! The facts of one session.
 
 use ingest::{ReadError, SessionReader};
 use jiff::tz::TimeZone;
@@ -12,73 +12,73 @@ use super::images::ImageFacts;
 use super::local_time::{LocalSpan, LocalTimeChange, changes};
 use super::range::{self, RangeFacts};
 
-/// What is in the recording of one session. Serialised, its keys are stable, with the unit in the name.
+/// The content of one session's recording. The serialised keys are stable, with the unit in the name.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SessionFacts {
-    /// Name of the session.
+    /// The name of the session.
     pub session: String,
     /// The MCAP file.
     pub file: FileFacts,
-    /// Device profile.
+    /// The device profile.
     pub profile: ProfileFacts,
-    /// Camera.
+    /// The camera.
     pub camera: CameraFacts,
     /// Camera pitch minus sensor pitch.
     pub mount_pitch_deg: f64,
-    /// IANA time zone of the times here; UTC where the recording's has no such name.
+    /// The IANA time zone of the times here; UTC where the recording's zone has no such name.
     pub time_zone: String,
-    /// From the first sample or image to the last.
+    /// The time from the first sample or image to the last.
     pub recorded: Option<LocalSpan>,
-    /// Where local time changes between them.
+    /// The changes of local time between them.
     pub local_time_changes: Vec<LocalTimeChange>,
-    /// Times that exist twice, because a sensor's clock was set back.
+    /// The times that exist twice, because a sensor's clock was set back.
     pub ambiguous: Ambiguous,
     /// The accelerometer, if the profile declares one.
     pub acceleration: Option<AccelerationFacts>,
     /// The range sensor, if the profile declares one.
     pub range: Option<RangeFacts>,
-    /// Channels that are carried along and not used.
+    /// The channels that are carried along and not used.
     pub extra: Vec<ExtraFacts>,
     /// The images.
     pub images: ImageFacts,
-    /// What was wrong with the card, and what is worth knowing of it.
+    /// The problems of the card, and notes.
     pub problems: Vec<Problem>,
 }
 
 /// The MCAP file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct FileFacts {
-    /// Program that wrote it.
+    /// The program that wrote it.
     pub program: String,
-    /// Version of the ingest that wrote it.
+    /// The version of the ingest that wrote it.
     pub ingest_version: u32,
-    /// Files of the card that went in.
+    /// The number of files of the card that went into it.
     pub input_files: usize,
     /// Whether it is a survey of the card, without pictures.
     pub is_survey: bool,
 }
 
-/// Device profile.
+/// The device profile.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ProfileFacts {
-    /// Its name.
+    /// The name.
     pub name: String,
-    /// Its version.
+    /// The version.
     pub version: String,
 }
 
-/// Camera.
+/// The camera.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct CameraFacts {
-    /// Its name.
+    /// The name.
     pub name: String,
-    /// Width of its pictures.
+    /// The width of its pictures.
     pub width_px: u32,
-    /// Height of its pictures.
+    /// The height of its pictures.
     pub height_px: u32,
 }
 
-/// Reads all that is told of a session.
+/// The facts of the session in a recording.
 pub(super) fn read(reader: &mut SessionReader, mount_pitch_deg: Option<f64>) -> Result<SessionFacts, ReadError> {
     let metadata = reader.metadata().clone();
     let zone = TimeZone::get(&metadata.time_zone).unwrap_or(TimeZone::UTC);

@@ -5,29 +5,29 @@ use serde::Serialize;
 /// Counts of values in bins of one width. The unit is that of the values. The last bin has its upper edge.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Histogram {
-    /// Lower edge of the first bin.
+    /// The lower edge of the first bin.
     pub from: f64,
-    /// Upper edge of the last bin.
+    /// The upper edge of the last bin.
     pub to: f64,
-    /// Width of each bin.
+    /// The width of each bin.
     pub bin_width: f64,
-    /// Values in each bin.
+    /// The number of values in each bin.
     pub counts: Vec<u64>,
-    /// Values below `from`.
+    /// The number of values below `from`.
     pub below: u64,
-    /// Values above `to`.
+    /// The number of values above `to`.
     pub above: u64,
 }
 
 impl Histogram {
-    /// `bins` bins of width `bin_width` from `from` on.
+    /// An empty histogram with `bins` bins of width `bin_width` from `from` on.
     #[must_use]
     pub fn new(from: f64, bin_width: f64, bins: u32) -> Self {
         let counts = vec![0; bins as usize];
         Self { from, to: from + f64::from(bins) * bin_width, bin_width, counts, below: 0, above: 0 }
     }
 
-    /// Counts a value; what is no number is passed over.
+    /// Counts a value; one that is not a number is passed over.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative, and capped")]
     pub fn add(&mut self, value: f64) {
         if value < self.from {
@@ -43,13 +43,13 @@ impl Histogram {
         }
     }
 
-    /// Values in the bins.
+    /// The number of values in the bins.
     #[must_use]
     pub fn inside(&self) -> u64 {
         self.counts.iter().sum()
     }
 
-    /// All values.
+    /// The number of all values.
     #[must_use]
     pub fn total(&self) -> u64 {
         self.below + self.inside() + self.above

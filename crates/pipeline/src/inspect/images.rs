@@ -1,4 +1,4 @@
-//! The images of a session, from their list alone.
+//! The facts of the images of a session, from their list alone.
 
 use std::collections::BTreeMap;
 
@@ -9,36 +9,36 @@ use serde::Serialize;
 
 use super::local_time::LocalSpan;
 
-/// The images of a session.
+/// The facts of the images of a session.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ImageFacts {
-    /// Images that can be used.
+    /// The number of images that can be used.
     pub count: usize,
-    /// Bytes of their files.
+    /// The bytes of their files.
     pub bytes: u64,
-    /// From the first to the last.
+    /// The time from the first to the last.
     pub recorded: Option<LocalSpan>,
-    /// Median of the times between them.
+    /// The median of the times between them.
     pub median_period_s: Option<f64>,
-    /// Longest time between two of them.
+    /// The longest time between two of them.
     pub longest_period_s: Option<f64>,
-    /// Images that cannot be used.
+    /// The images that cannot be used, by reason.
     pub dropped: Vec<DroppedImages>,
 }
 
 /// Images that cannot be used for one reason.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct DroppedImages {
-    /// Why (docs/ledger.md).
+    /// The reason (docs/ledger.md).
     pub reason: FrameReason,
-    /// How many.
+    /// The number of images.
     pub count: usize,
-    /// Bytes of their files.
+    /// The bytes of their files.
     pub bytes: u64,
 }
 
 impl ImageFacts {
-    /// `images` in order of time.
+    /// The facts of `images`, which must be in the order of time.
     pub(super) fn new(images: &[ImageEntry], dropped: &[DroppedImage], zone: &TimeZone) -> Self {
         let periods_s: Vec<f64> = images.windows(2).map(|pair| pair[1].time.seconds_since(pair[0].time)).collect();
         let ends = images.first().zip(images.last());

@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 pub struct Moment(pub Zoned);
 
 impl Moment {
-    /// That time in that zone.
+    /// The moment of a time in a zone.
     #[must_use]
     pub fn new(time: UtcNs, zone: &TimeZone) -> Self {
         // Every i64 of ns is a timestamp.
@@ -24,31 +24,31 @@ impl Serialize for Moment {
     }
 }
 
-/// From one moment to a later one.
+/// The span from one moment to a later one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LocalSpan {
-    /// The first.
+    /// The first moment.
     pub from: Moment,
-    /// The last.
+    /// The last moment.
     pub to: Moment,
-    /// Seconds between them.
+    /// The seconds between them.
     pub duration_s: f64,
 }
 
 impl LocalSpan {
-    /// Those times in that zone.
+    /// The span between two times in a zone.
     #[must_use]
     pub fn new(from: UtcNs, to: UtcNs, zone: &TimeZone) -> Self {
         Self { from: Moment::new(from, zone), to: Moment::new(to, zone), duration_s: to.seconds_since(from) }
     }
 }
 
-/// Clocks on the wall change, by law: the zone's offset from UTC is another from here on.
+/// A change of local time by law: from here on the zone has another offset from UTC.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LocalTimeChange {
     /// The first moment with the new offset.
     pub at: Moment,
-    /// Seconds by which wall clocks go forward; negative for back.
+    /// The seconds by which wall clocks go forward; negative for back.
     pub by_s: i64,
 }
 

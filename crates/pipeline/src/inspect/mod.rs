@@ -1,6 +1,6 @@
-//! What is in a recording: channels, rates, gaps, clocks, pitch, range and images, as numbers.
+//! Shows the content of a recording as numbers: channels, rates, gaps, clocks, pitch, range and images.
 //!
-//! Each sensor is streamed once; what is kept does not grow with the recording, but for its list of images.
+//! Each sensor is streamed once. What is kept does not grow with the recording, apart from its list of images.
 
 mod acceleration;
 mod channels;
@@ -15,7 +15,7 @@ use std::cell::Cell;
 use std::path::Path;
 
 use ingest::{ReadError, SessionReader};
-use model::{Problem, SessionStatus, Severity, Stage};
+use model::{Problem, ProblemCode, SessionStatus, Severity, Stage};
 
 use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
@@ -32,7 +32,8 @@ pub use images::{DroppedImages, ImageFacts};
 pub use local_time::{LocalSpan, LocalTimeChange, Moment};
 pub use range::RangeFacts;
 
-/// What is in the MCAP file of a session. `mount_pitch_deg`: camera pitch minus sensor pitch, if not the profile's.
+/// The content of the MCAP file of a session. `mount_pitch_deg`: camera pitch minus sensor pitch, if it is not the
+/// profile's.
 ///
 /// # Errors
 /// [`ReadError`] when the file cannot be read, is damaged, or is not of this program.
@@ -43,14 +44,14 @@ pub fn inspect_file(path: &Path, mount_pitch_deg: Option<f64>) -> Result<Session
 /// One session of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inspected {
-    /// Name of the session.
+    /// The name of the session.
     pub session: String,
-    /// What is in it, or why nothing of it can be used.
+    /// The content of its recording, or the problem by which nothing of it can be used.
     pub facts: Result<SessionFacts, Problem>,
 }
 
-/// What is in the cards of a study, in the order of the sessions' names. Cards are read whole; what is written goes into a
-/// temporary folder.
+/// The content of the cards of a study, in the order of the sessions' names. Cards are read whole; what is written goes into
+/// a temporary folder.
 ///
 /// # Errors
 /// [`SurveyError`] for what concerns all sessions.
@@ -96,7 +97,7 @@ fn unreadable(dir: &SessionDir, error: &ReadError) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Signals,
-        code: "bad_mcap".to_owned(),
+        code: ProblemCode::BadMcap,
         place: format!("mcap/{}.mcap", dir.name),
         fact: error.to_string(),
         remedy: "check free space and permissions of the temporary folder (TMPDIR)".to_owned(),

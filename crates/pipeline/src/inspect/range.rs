@@ -1,4 +1,4 @@
-//! The range sensor: how far the table was.
+//! The facts of the range sensor: the distances of the table.
 
 use ingest::timeline::StreamFacts;
 use ingest::{ReadError, SessionReader};
@@ -9,32 +9,33 @@ use super::clock::ClockFacts;
 use super::histogram::Histogram;
 use crate::signals::NO_TARGET_MM;
 
-/// Bins of the range: 0 to 2000 mm.
+/// The bins of the range: 0 to 2000 mm.
 const RANGE_BIN_MM: f64 = 100.0;
 const RANGE_BINS: u32 = 20;
 
-/// What the range sensor recorded.
+/// The facts of a range sensor's recording.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RangeFacts {
-    /// Its clock.
+    /// The facts of its clock.
     pub clock: ClockFacts,
-    /// Samples that say 'no target' (codes 8190 and 8191).
+    /// The number of samples that say 'no target' (codes 8190 and 8191).
     pub no_target_samples: u64,
-    /// Samples with the value of the one before: a sensor that is read more often than it measures, or a still target.
+    /// The number of samples with the value of the one before: the sensor is read more often than it measures, or the target
+    /// is still.
     pub repeated_samples: u64,
-    /// Mean of the readings, the codes left out.
+    /// The mean of the readings, without the codes.
     pub mean_mm: Option<f64>,
     /// Their sample SD.
     pub sd_mm: Option<f64>,
-    /// The shortest of them.
+    /// The shortest reading.
     pub least_mm: Option<f64>,
-    /// The longest of them.
+    /// The longest reading.
     pub greatest_mm: Option<f64>,
-    /// Readings in mm, the codes left out.
+    /// The readings in mm, without the codes.
     pub range_mm: Histogram,
 }
 
-/// Mean and SD of values that pass by (Welford 1962).
+/// The mean and the SD of values that pass by (Welford 1962).
 #[derive(Debug, Default)]
 struct Moments {
     n: f64,
@@ -54,7 +55,7 @@ impl Moments {
     }
 }
 
-/// Streams the range sensor's samples. None where the profile declares none.
+/// The facts of the range sensor's samples, streamed. None where the profile declares no range sensor.
 pub(super) fn read(
     reader: &mut SessionReader,
     facts: Option<&StreamFacts>,

@@ -1,33 +1,35 @@
-//! What is wrong with a file of marks.
+//! Errors of a file of marks.
 
 use std::io;
 use std::path::PathBuf;
 
+use model::ProblemCode;
+
 use super::LARGEST_FILE_BYTES;
 
-/// Why a file, or one shape of it, gives no marks.
+/// The reason why a file, or one shape of it, gives no marks.
 #[derive(Debug, thiserror::Error)]
 pub enum MarksError {
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error("cannot read the file: {source}: {}", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The error of the system.
         source: io::Error,
     },
-    /// It is too large for marks.
+    /// The file is too large for marks.
     #[error("the file has more than {LARGEST_FILE_BYTES} bytes, too many for marks: {}", path.display())]
     TooLarge {
         /// The file.
         path: PathBuf,
     },
-    /// It is not LabelMe's JSON.
+    /// The file is not LabelMe's JSON.
     #[error("not a LabelMe file: {source}; open it in LabelMe and save it again: {}", path.display())]
     Malformed {
         /// The file.
         path: PathBuf,
-        /// Why, with line and column.
+        /// The error of the parser, with line and column.
         source: serde_json::Error,
     },
     /// The picture that was marked has another size than the camera's.
@@ -38,42 +40,39 @@ pub enum MarksError {
     OtherPicture {
         /// The file.
         path: PathBuf,
-        /// Width that the file gives.
+        /// The width that the file gives.
         got_width: u32,
-        /// Height that the file gives.
+        /// The height that the file gives.
         got_height: u32,
-        /// Width of the camera's pictures.
+        /// The width of the camera's pictures.
         width: u32,
-        /// Height of the camera's pictures.
+        /// The height of the camera's pictures.
         height: u32,
     },
-    /// One of its shapes.
+    /// One of its shapes is no mark.
     #[error("shape {number} ('{label}'): {fact}: {}", path.display())]
     Shape {
         /// The file.
         path: PathBuf,
-        /// Number of the shape, from 1.
+        /// The number of the shape, from 1.
         number: usize,
-        /// Its label.
+        /// The label of the shape.
         label: String,
-        /// What is wrong: expected and got.
+        /// The fault: what was expected, and what was there.
         fact: String,
     },
 }
 
 impl MarksError {
-    /// Stable code, for the status of a session.
+    /// The stable code, for the status of a session.
     #[must_use]
-    pub fn code(&self) -> &'static str {
+    pub fn code(&self) -> ProblemCode {
         match self {
-            Self::Unreadable { .. } => MARKS_UNREADABLE,
-            Self::TooLarge { .. } => "marks_too_large",
-            Self::Malformed { .. } => "marks_malformed",
-            Self::OtherPicture { .. } => "marks_of_other_picture",
-            Self::Shape { .. } => "bad_mark",
+            Self::Unreadable { .. } => ProblemCode::MarksUnreadable,
+            Self::TooLarge { .. } => ProblemCode::MarksTooLarge,
+            Self::Malformed { .. } => ProblemCode::MarksMalformed,
+            Self::OtherPicture { .. } => ProblemCode::MarksOfOtherPicture,
+            Self::Shape { .. } => ProblemCode::BadMark,
         }
     }
 }
-
-/// The system does not let marks be read.
-pub(crate) const MARKS_UNREADABLE: &str = "marks_unreadable";

@@ -1,19 +1,19 @@
-//! LabelMe files that a person can open, check and correct: of rims that the program found, of marks from other tools.
+//! Writes LabelMe files that a person can open, check and correct, from found rims and from marks of other tools.
 
 use model::{Feature, Mark, ObjectMarks};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
-use crate::rims::Found;
+use rims::Found;
 
 /// The version of LabelMe whose files these are like.
 const LABELME_VERSION: &str = "5.4.1";
 
-/// A rim that was found in an image of a session, under the name that it has in that session.
+/// A found rim in an image of a session, under the name that it has in that session.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct AutoRim {
     pub object: String,
-    /// Points along it, in pixels of the marks camera's pictures.
+    /// The points along it, in pixels of the marks camera's pictures.
     pub points_px: Vec<[f64; 2]>,
     pub found: Found,
 }
@@ -62,18 +62,19 @@ impl<'a> Shape<'a> {
         Self { aim_batch: Some(rim.found), ..Self::new(label, "polygon", &rim.points_px) }
     }
 
-    /// `shape_type`: LabelMe's word; `points`: as LabelMe counts pixels.
+    /// A shape; `shape_type` is LabelMe's word, and `points` count pixels as LabelMe does.
     pub fn new(label: String, shape_type: &'static str, points: &'a [[f64; 2]]) -> Self {
         Self { label, points, group_id: None, shape_type, flags: NoFlags {}, aim_batch: None }
     }
 }
 
-/// The text of the file. `image_path`: where the picture is, from where the file will be; `picture_px`: its width and height.
+/// The text of a file with these rims. `image_path` is the way to the picture from where the file will be, `picture_px` the
+/// picture's width and height.
 pub(crate) fn text_of(rims: &[AutoRim], image_path: &str, picture_px: [u32; 2]) -> serde_json::Result<String> {
     text_of_shapes(rims.iter().map(Shape::from_rim).collect(), image_path, picture_px)
 }
 
-/// As [`text_of`], of any shapes.
+/// The text of a file with these shapes; see [`text_of`].
 pub(crate) fn text_of_shapes(
     shapes: Vec<Shape<'_>>,
     image_path: &str,
@@ -93,7 +94,7 @@ mod tests {
 
     use super::*;
     use crate::labelme::parse;
-    use crate::rims::{HeightSource, RimHeight};
+    use rims::{HeightSource, RimHeight};
 
     fn rim() -> AutoRim {
         let height = RimHeight { mm: 61.234_567_890_123_4, sigma_mm: 0.1 + 0.2, source: HeightSource::Foot };

@@ -1,4 +1,4 @@
-//! Plans of sessions, made and carried out in parallel.
+//! Makes the plans of sessions and carries them out, several at a time.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -14,7 +14,7 @@ use crate::reporter::Reporter;
 use crate::study::SessionDir;
 use crate::work::WorkFolder;
 
-/// What all sessions of a run share.
+/// A batch of sessions that are run together, and what they share.
 pub(super) struct Batch<'a> {
     pub context: &'a RunContext<'a>,
     pub work: &'a WorkFolder,
@@ -23,7 +23,7 @@ pub(super) struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    /// Looks at sessions. What an earlier run kept does not count when all is to be done again.
+    /// The plans for the sessions. What an earlier run has kept does not count when everything is to be done again.
     pub fn plan(&self, dirs: &[&'a SessionDir]) -> Result<Vec<SessionPlan<'a>>, Halted> {
         let kept = if self.options.force { BTreeMap::new() } else { self.work.state.kept_by_session()? };
         let plans = in_parallel(dirs, self.options.jobs, |dir| {
@@ -33,7 +33,7 @@ impl<'a> Batch<'a> {
         Ok(plans)
     }
 
-    /// Does what the plans say. What is done is kept, whatever comes after.
+    /// Carries the plans out. What is done is kept, whatever comes after.
     pub fn carry_out(&self, plans: &[SessionPlan<'a>]) -> Result<Tally, Halted> {
         let (current, to_do): (Vec<_>, Vec<_>) = plans.iter().partition(|plan| plan.current.all());
         let stop = &self.options.stop;
@@ -71,7 +71,7 @@ impl<'a> Batch<'a> {
         }
     }
 
-    /// Tells that a session is done; an error where it failed and the run is to stop then.
+    /// Reports that a session is done; an error where it failed and the run is to stop then.
     fn unless_failed(&self, done: Option<SessionDone>) -> Result<Option<SessionDone>, Halted> {
         let Some(done) = done else { return Ok(None) };
         self.reporter.done(&done.status);

@@ -1,4 +1,4 @@
-//! Why a run stopped.
+//! The errors of a run.
 
 use std::path::PathBuf;
 
@@ -7,10 +7,10 @@ use model::Problem;
 
 use crate::work::WorkError;
 
-/// Why a run did not finish.
+/// The error of a run that did not finish.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError<E: std::error::Error + 'static> {
-    /// Before its results could be stored.
+    /// It stopped before its results could be stored.
     #[error(transparent)]
     Halted(#[from] Halted),
     /// The results could not be stored.
@@ -18,41 +18,41 @@ pub enum RunError<E: std::error::Error + 'static> {
     Sink(#[source] E),
 }
 
-/// Why a run stopped before its results. What concerns one session never stops a run, unless that was asked for.
+/// The reason why a run stopped before its results. What concerns one session never stops a run, unless that was asked for.
 #[derive(Debug, thiserror::Error)]
 pub enum Halted {
-    /// The work folder.
+    /// The work folder cannot be used.
     #[error(transparent)]
     Work(#[from] WorkError),
-    /// A recording cannot be written there, or no thread can be had: no session could go on.
+    /// A recording cannot be written, or no thread can be had, so that no session could go on.
     #[error("{error}; {}. What was done is kept; run again to go on", error.remedy())]
     Ingest {
-        /// What happened to the first session that met it.
+        /// The error of the first session that met it.
         #[source]
         error: Box<IngestError>,
     },
-    /// The worker threads.
+    /// The worker threads cannot be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
-    /// An input file of the study that was there a moment ago.
+    /// An input file of the study can no longer be read.
     #[error("cannot read an input file: {source}: {}", path.display())]
     Input {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The error of the system.
         source: std::io::Error,
     },
-    /// The settings do not go into JSON.
+    /// The settings cannot be written as JSON.
     #[error("cannot record the settings: {0}")]
     Settings(#[from] serde_json::Error),
     /// A signal came.
     #[error("stopped by {}: {done} of {sessions} sessions are done and kept; run again to go on", signal_name(*signal))]
     Stopped {
-        /// Its number.
+        /// The number of the signal.
         signal: usize,
-        /// Sessions that are done, in this run or before.
+        /// The number of sessions that are done, in this run or before.
         done: usize,
-        /// All sessions.
+        /// The number of all sessions.
         sessions: usize,
     },
     /// A session failed, and the run was to stop then.
@@ -61,12 +61,12 @@ pub enum Halted {
         problem.stage, problem.code, problem.place, problem.fact, problem.remedy
     )]
     FailFast {
-        /// The session.
+        /// The name of the session.
         session: String,
-        /// What is wrong.
+        /// The problem of the session.
         problem: Box<Problem>,
     },
-    /// What was kept of a session is damaged, and was damaged again after it was made anew.
+    /// The kept output of a session is damaged, and was damaged again after it was made anew.
     #[error(
         "the work folder does not keep what is written there (session '{0}'); check the disk, run with --force, or give --work another folder"
     )]

@@ -9,13 +9,13 @@ use serde::Serialize;
 
 use crate::calibration::CalibrationFile;
 use crate::inputs::{sha256_of_bytes, sha256_of_file};
-use crate::rims::{self, RimShape};
 use crate::session::Prepared;
 use crate::signals::ReadingSettings;
 use crate::study::{
     AUTO, MarksSource, MarksSpec, MeasureSpec, MountSpec, Named, SelectSpec, SessionDir, SessionSpec, SignalsSpec,
     Study, StudySpec, TimeSpec, UncertaintySpec,
 };
+use rims::RimShape;
 
 /// Version of what the signals stage gives. A change of meaning gives another number, and recordings are read anew.
 const SIGNALS_VERSION: u32 = 1;

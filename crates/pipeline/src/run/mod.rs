@@ -1,4 +1,4 @@
-//! All sessions of a study, in parallel, into a sink; what an earlier run has done is not done again.
+//! Runs all sessions of a study in parallel and hands their rows to a sink. What an earlier run has done is not done again.
 
 mod carry_out;
 mod error;
@@ -28,18 +28,18 @@ use plan::RunContext;
 pub use status::{SessionState, StudyState, status};
 use write::Writing;
 
-/// What a run did.
+/// The result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ran {
-    /// How each session fared, in the order of their names; those of earlier runs included.
+    /// How each session fared, in the order of their names, including those that an earlier run did.
     pub sessions: Vec<SessionStatus>,
-    /// Sessions for which something was done in this run.
+    /// The number of sessions for which something was done in this run.
     pub done: usize,
-    /// Whether results were written; not when they are what they would be.
+    /// Whether results were written. They are not when the files are what would be written.
     pub wrote: bool,
     /// Sessions and seconds by stage.
     pub stages: Vec<StageLog>,
-    /// How long it took.
+    /// The duration of the run.
     pub seconds: f64,
 }
 

@@ -8,34 +8,34 @@ use crate::stop::Stop;
 /// Settings of a run that are not the study's.
 #[derive(Debug, Clone)]
 pub struct RunOptions {
-    /// Sessions at a time; none for [`default_jobs`](crate::default_jobs).
+    /// The number of sessions at a time; none for [`default_jobs`](crate::default_jobs).
     pub jobs: Option<NonZeroUsize>,
-    /// Bound of the images in memory at once, over all sessions at work. One image is always let through.
+    /// The bound of the images in memory at once, over all sessions at work. One image is always let through.
     pub image_memory_bytes: u64,
-    /// Folder for what can be made anew: recordings and state.
+    /// The work folder: recordings and state, which can all be made anew.
     pub work_dir: PathBuf,
-    /// Whether to do everything again, changed or not.
+    /// Whether to do everything again, whether it has changed or not.
     pub force: bool,
     /// Whether to stop at the first session that fails.
     pub fail_fast: bool,
-    /// Whether to delete what the work folder has of sessions that the study no longer has.
+    /// Whether to delete from the work folder the sessions that the study no longer has.
     pub prune: bool,
-    /// Program and version, for provenance.
+    /// The program and its version, for provenance.
     pub program: String,
-    /// Commit that the program was built from, where that is known.
+    /// The commit that the program was built from, where that is known.
     pub commit: Option<String>,
-    /// A wish to stop.
+    /// The wish to stop, from a signal or from inside.
     pub stop: Stop,
 }
 
 impl RunOptions {
-    /// What readings and sizes were made by.
+    /// The program, its version and its commit: a part of every key of a stage.
     pub(super) fn program_and_commit(&self) -> String {
         program_and_commit(&self.program, self.commit.as_deref())
     }
 }
 
-/// What readings and sizes were made by.
+/// The program, its version and its commit: a part of every key of a stage.
 pub(crate) fn program_and_commit(program: &str, commit: Option<&str>) -> String {
     format!("{program} {}", commit.unwrap_or("unknown commit"))
 }

@@ -1,4 +1,4 @@
-//! What a run has to do: every session looked at, no file of a card read.
+//! Plans a run: looks at every session, and reads no file of a card.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -16,32 +16,32 @@ use crate::work::{Kept, KeptStage, State};
 /// The stages of a session that need not be done again.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Current {
-    /// The recording is that of the card.
+    /// Whether the recording is that of the card.
     pub ingest: bool,
-    /// The readings are that recording's, under these settings.
+    /// Whether the readings are those of that recording, under these settings.
     pub signals: bool,
-    /// The sizes are those of these readings and marks, under these settings.
+    /// Whether the sizes are those of these readings and marks, under these settings.
     pub measure: bool,
 }
 
 impl Current {
-    /// Whether nothing is to be done.
+    /// Whether nothing has to be done.
     #[must_use]
     pub fn all(self) -> bool {
         self.ingest && self.signals && self.measure
     }
 }
 
-/// What is to be done for a session.
+/// The plan for one session.
 pub(crate) struct SessionPlan<'a> {
     pub dir: &'a SessionDir,
     pub current: Current,
-    /// Bytes of the card, as far as they have to be read.
+    /// The number of bytes of the card that have to be read.
     pub bytes_to_read: u64,
     pub kept: Kept,
 }
 
-/// What all sessions of a run have in common.
+/// The study, the program, and what else all sessions of a run have in common.
 pub(crate) struct RunContext<'a> {
     pub study: &'a Study,
     pub program: &'a str,
@@ -68,7 +68,7 @@ impl<'a> RunContext<'a> {
         MeasureParts::new(self.study, dir, prepared, self.program, signals_key, &self.objects_csv)
     }
 
-    /// Looks at a session. `kept` is what the state has of it.
+    /// The plan for a session; `kept` is what the state has of it.
     pub fn plan(&self, dir: &'a SessionDir, kept: Kept, state: Option<&State>, mcap: &Path) -> SessionPlan<'a> {
         let prepared = Prepared::new(self.study, dir, self.program);
         let card = prepared.as_ref().ok().and_then(|prepared| self.fingerprinter.fingerprint(&prepared.source).ok());
@@ -101,21 +101,21 @@ impl<'a> RunContext<'a> {
     }
 }
 
-/// Whether the MCAP file is as ingest left it, or at least whole and of that key.
+/// Whether the MCAP file is as ingest left it, or is at least whole and has that key.
 fn recording_is_there(session: &str, ingest: &KeptStage, state: Option<&State>, mcap: &Path) -> bool {
     let now = recording_fingerprint(mcap).hex();
     let then = state.and_then(|state| state.output(session, Stage::Ingest).ok().flatten());
     then == Some(now) || ingest::ingest_is_current(mcap, &ingest.key)
 }
 
-/// What the system says of an MCAP file.
+/// The fingerprint of an MCAP file: size, times and inode, as the system gives them.
 pub(super) fn recording_fingerprint(mcap: &Path) -> Fingerprint {
     let mut fingerprint = Fingerprint::default();
     fingerprint.add_file("mcap", mcap);
     fingerprint
 }
 
-/// How sessions fared for which nothing is to be done, by name.
+/// The statuses of the sessions for which nothing has to be done, by name.
 pub(super) fn statuses(current: &[&SessionPlan<'_>]) -> BTreeMap<String, SessionStatus> {
     let named = current.iter().filter_map(|plan| Some((plan.dir.name.clone(), plan.kept.status.clone()?)));
     named.collect()

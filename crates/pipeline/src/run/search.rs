@@ -1,4 +1,4 @@
-//! Rims in the pictures of a session: those that were found before, or searched for.
+//! The rims in the pictures of a session, either kept from an earlier run or searched for.
 
 use model::Stage;
 
@@ -7,9 +7,9 @@ use super::worker::{Interruption, Worker};
 use crate::session::{AutoMarks, Prepared, Recording, Search, SearchError, SessionOutput};
 
 impl Worker<'_> {
-    /// Rims in the pictures of the recording, if they are to be found: what the last run found in the same pictures under the same
-    /// settings stays, so that a name or a true size that changed costs no search. A recording that is damaged is made again,
-    /// once. `key`: of the search.
+    /// The rims in the pictures of the recording, if the study asks for them. What the last run found in the same pictures
+    /// under the same settings is used again, so that a changed name or true size costs no search. A damaged recording is
+    /// made again, once. `key` is that of the search.
     pub(super) fn search(
         &self,
         plan: &SessionPlan<'_>,
@@ -35,7 +35,7 @@ impl Worker<'_> {
     fn found_before(&self, plan: &SessionPlan<'_>, key: Option<&str>) -> Result<Option<AutoMarks>, Interruption> {
         let (Some(key), false) = (key, self.force) else { return Ok(None) };
         let kept = self.work.state.output(&plan.dir.name, Stage::Measure)?;
-        // What cannot be read was kept by another version.
+        // An output that cannot be read was kept by another version.
         let output = kept.and_then(|text| serde_json::from_str::<SessionOutput>(&text).ok());
         let found = output.and_then(|output| {
             let searched = output.searched.filter(|searched| searched.key == key)?;

@@ -1,4 +1,4 @@
-//! What a run would find done, and what it would do.
+//! The state of a study in a work folder: what is done, and what a run would do.
 
 use std::path::Path;
 
@@ -18,30 +18,30 @@ use crate::work::{Holder, Kept, State, recording_of, state_file};
 pub struct StudyState {
     /// The sessions of the study, by name.
     pub sessions: Vec<SessionState>,
-    /// Sessions that the work folder holds and the study has no more.
+    /// The sessions that the work folder holds and the study no longer has.
     pub removed: Vec<String>,
-    /// The run at work there now.
+    /// The run that is at work there now.
     pub holder: Option<Holder>,
 }
 
 /// The state of a session.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionState {
-    /// Its name.
+    /// The name of the session.
     pub session: String,
-    /// What a run would not do again.
+    /// The stages that a run would not do again.
     pub current: Current,
-    /// Bytes of its card that a run would read.
+    /// The number of bytes of its card that a run would read.
     pub bytes_to_read: u64,
-    /// Whether the recording has the calibration of an earlier camera. Sizes do not depend on it; viewers show it.
+    /// Whether the recording holds the calibration of an earlier camera. Sizes do not depend on it, but viewers show it.
     pub has_old_calibration: bool,
-    /// How it fared when it was last measured.
+    /// How the session fared when it was last measured.
     pub status: Option<SessionStatus>,
-    /// When that was, UTC.
+    /// The time at which it was last measured, in UTC.
     pub measured_utc: Option<String>,
 }
 
-/// Looks at a study and a work folder, beside a run if one is at work. Reads no card and changes nothing.
+/// Looks at a study and a work folder, also while a run is at work there. Reads no card and changes nothing.
 ///
 /// # Errors
 /// [`Halted`] when the state of the work folder cannot be read.

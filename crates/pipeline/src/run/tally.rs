@@ -1,4 +1,4 @@
-//! What was done, counted.
+//! Counts what a run did.
 
 use std::collections::BTreeMap;
 
@@ -9,16 +9,16 @@ use super::plan::{SessionPlan, statuses};
 use super::worker::SessionDone;
 use crate::parallel::jobs_or_default;
 
-/// What a run did.
+/// The statuses and times of the sessions of a run.
 pub(super) struct Tally {
-    /// How each session fared, those of earlier runs included.
+    /// How each session fared, including those that an earlier run did.
     pub statuses: BTreeMap<String, SessionStatus>,
-    /// What was done, by session.
+    /// The stages that were done, and how long they took, by session.
     pub logs: Vec<SessionLog>,
 }
 
 impl Tally {
-    /// `current`: the sessions for which nothing was done.
+    /// The tally of a batch; `current` holds the sessions for which nothing was done.
     pub fn new(current: &[&SessionPlan<'_>], done: Vec<SessionDone>) -> Self {
         let mut tally = Self { statuses: statuses(current), logs: Vec::new() };
         for SessionDone { status, log } in done {
@@ -28,13 +28,13 @@ impl Tally {
         tally
     }
 
-    /// Adds what was done later.
+    /// Adds a later batch, whose statuses count.
     pub fn add(&mut self, later: Self) {
         self.statuses.extend(later.statuses);
         self.logs.extend(later.logs);
     }
 
-    /// Sessions and seconds by stage.
+    /// The number of sessions and the seconds by stage.
     pub fn stages(&self) -> Vec<StageLog> {
         let stage_log = |stage, seconds: fn(&SessionLog) -> Option<f64>| {
             let all: Vec<f64> = self.logs.iter().filter_map(seconds).collect();
@@ -50,7 +50,7 @@ impl Tally {
         ]
     }
 
-    /// For the file beside the results.
+    /// The log that is written beside the results, in run.json.
     pub fn log(&self, options: &RunOptions) -> RunLog {
         let mut sessions = self.logs.clone();
         sessions.sort_by(|a, b| a.session.cmp(&b.session));

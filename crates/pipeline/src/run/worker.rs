@@ -1,26 +1,25 @@
-//! One session through its stages: what is kept is used, what is done is kept at once.
+//! Takes one session through its stages. What is kept is used, and what is done is kept at once.
 
 use std::cell::Cell;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use ingest::{ByteBudget, IngestError, Ingested, SessionSource};
-use model::{Problem, SessionLog, SessionStatus, Severity, Stage};
+use model::{Problem, ProblemCode, SessionLog, SessionStatus, Severity, Stage};
 
 use super::plan::{RunContext, SessionPlan, recording_fingerprint};
 use super::{Halted, keys};
 use crate::inputs::sha256_of_bytes;
-use crate::labelme::MARKS_UNREADABLE;
 use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
 use crate::session::{
-    BAD_MCAP, CardProgress, Measuring, Prepared, Recording, SearchError, Searched, failed, finish_status,
-    ingest_problem, read_recording,
+    CardProgress, Measuring, Prepared, Recording, SearchError, Searched, failed, finish_status, ingest_problem,
+    read_recording,
 };
 use crate::stop::Stop;
 use crate::work::{KeptStage, StageOutput, WorkError, WorkFolder};
 
-/// What the sessions at work share.
+/// The work folder, the budget and the context that all sessions at work share.
 pub(super) struct Worker<'a> {
     pub context: &'a RunContext<'a>,
     pub work: &'a WorkFolder,
@@ -30,13 +29,13 @@ pub(super) struct Worker<'a> {
     pub reporter: &'a dyn Reporter,
 }
 
-/// What was done of a session.
+/// A session that is done: how it fared, and how long its stages took.
 pub(super) struct SessionDone {
     pub status: SessionStatus,
     pub log: SessionLog,
 }
 
-/// Why a session does not go on.
+/// The reason why a session does not go on.
 pub(super) enum Interruption {
     Session(Box<Problem>),
     Halt(Halted),
@@ -71,8 +70,8 @@ impl From<serde_json::Error> for Interruption {
 }
 
 impl Worker<'_> {
-    /// Runs a session as far as that is needed; none when it was stopped. A session that fails, or panics, has a status and
-    /// a ledger; it is tried again the next time.
+    /// Runs a session as far as that is needed; none when it was stopped. A session that fails or panics gets a status and a
+    /// ledger, and is tried again the next time.
     pub fn run(&self, plan: &SessionPlan<'_>) -> Result<Option<SessionDone>, Halted> {
         let stage = Cell::new(Stage::Study);
         let mut log = SessionLog { session: plan.dir.name.clone(), ..SessionLog::default() };
@@ -94,7 +93,7 @@ impl Worker<'_> {
         stage: &Cell<Stage>,
         log: &mut SessionLog,
     ) -> Result<SessionStatus, Interruption> {
-        // Again: hours may have gone since the plan.
+        // The card is looked at again, since hours may have gone by since the plan was made.
         let prepared = Prepared::new(self.context.study, plan.dir, self.context.program)?;
         self.begin(plan, stage, Stage::Ingest);
         let (ingest_key, changed) = self.ingest(plan, &prepared, log)?;
@@ -150,7 +149,7 @@ impl Worker<'_> {
         crate::fault::inject(&plan.dir.name, begun);
     }
 
-    /// Key of the recording, and what is wrong if the card changed while it was read.
+    /// The key of the recording, and a problem if the card changed while it was read.
     fn ingest(
         &self,
         plan: &SessionPlan<'_>,
@@ -168,7 +167,7 @@ impl Worker<'_> {
         let ingested = self.ingest_card(source, self.force || is_mixture)?;
         let after = self.context.fingerprinter.fingerprint(source).map_err(refuse)?;
         let seconds = start.elapsed().as_secs_f64();
-        // A card that was only hashed, and is what it was, was not ingested.
+        // A card that was only hashed, and has not changed, was not ingested.
         log.ingest_s = matches!(ingested, Ingested::Fresh(_)).then_some(seconds);
         let changed = (before.hex() != after.hex()).then(|| changed_while_read(&plan.dir.name));
         match &changed {
@@ -206,7 +205,7 @@ impl Worker<'_> {
         ingested.map_err(|error| ingest_interruption(&source.session, error))
     }
 
-    /// The readings: those kept, or made from the recording. A recording that is damaged is made again, once.
+    /// The readings, either kept ones or made from the recording. A damaged recording is made again, once.
     fn signals(
         &self,
         plan: &SessionPlan<'_>,
@@ -225,7 +224,7 @@ impl Worker<'_> {
         let start = Instant::now();
         let read = || read_recording(self.context.study, &self.mcap(plan), session);
         let recording = match read() {
-            Err(problem) if problem.code == BAD_MCAP => {
+            Err(problem) if problem.code == ProblemCode::BadMcap => {
                 self.ingest_again(plan, prepared, &problem)?;
                 read()?
             }
@@ -239,7 +238,7 @@ impl Worker<'_> {
         Ok(recording)
     }
 
-    /// Makes a damaged recording anew.
+    /// Makes a damaged recording again from its card.
     pub(super) fn ingest_again(
         &self,
         plan: &SessionPlan<'_>,
@@ -272,9 +271,9 @@ impl Worker<'_> {
     }
 }
 
-/// Marks that the system refused once may be there the next time, with nothing to tell them from those of before.
+/// Whether marks could not be read. They may be readable the next time, and nothing would tell them from those of now.
 fn has_unread_marks(status: &SessionStatus) -> bool {
-    status.problems.iter().any(|problem| problem.code == MARKS_UNREADABLE)
+    status.problems.iter().any(|problem| problem.code == ProblemCode::MarksUnreadable)
 }
 
 fn ingest_interruption(session: &str, error: IngestError) -> Interruption {
@@ -289,7 +288,7 @@ fn changed_while_read(session: &str) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Ingest,
-        code: "card_changed".to_owned(),
+        code: ProblemCode::CardChanged,
         place: format!("cards/{session}"),
         fact: "the card's files changed while they were read; what was read may be a mixture".to_owned(),
         remedy: "wait until the card is copied whole, and run again; the session is then read anew".to_owned(),

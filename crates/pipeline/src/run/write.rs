@@ -1,4 +1,5 @@
-//! Rows of all sessions, from the state into the sink: they are the same whether they were made now or earlier.
+//! Hands the rows of all sessions from the state to the sink. They are the same whether they were made now or in an earlier
+//! run.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -15,7 +16,7 @@ use crate::session::{SessionOutput, log_problems};
 use crate::study::{NAMES_FILE, SessionDir, Study};
 use crate::work::{WorkFolder, Written};
 
-/// What the results are written from.
+/// Everything that the results are written from.
 pub(super) struct Writing<'a> {
     pub study: &'a Study,
     pub options: &'a RunOptions,
@@ -24,12 +25,12 @@ pub(super) struct Writing<'a> {
 }
 
 impl<'a> Writing<'a> {
-    /// Whether the files of results are there, as they would be written now.
+    /// Whether the files of results are there, and are what would be written now.
     pub fn is_done(&self, files: &[PathBuf]) -> Result<bool, Halted> {
         Ok(self.work.state.written()? == Some(self.written(files)?))
     }
 
-    /// The sessions whose rows are not what was kept: a damaged disk. They are forgotten, to be made again.
+    /// The sessions whose kept rows are damaged, as by a bad disk. They are forgotten, so that they are made again.
     pub fn damaged(&self, plans: &[SessionPlan<'a>]) -> Result<Vec<&'a SessionDir>, Halted> {
         let mut damaged = Vec::new();
         for plan in plans {
@@ -42,7 +43,7 @@ impl<'a> Writing<'a> {
         Ok(damaged)
     }
 
-    /// Hands all rows and the metadata to the sink, and remembers that.
+    /// Hands all rows and the metadata to the sink, and remembers in the state that it did.
     pub fn write<S: ResultSink>(
         &self,
         statuses: &BTreeMap<String, SessionStatus>,
@@ -82,7 +83,7 @@ impl<'a> Writing<'a> {
         rows.ok_or_else(|| Halted::NotKept(session.to_owned()))
     }
 
-    /// What stands for files of results that were written now.
+    /// The key and fingerprint of files of results that were written now.
     fn written(&self, files: &[PathBuf]) -> Result<Written, Halted> {
         let kept = self.work.state.kept_by_session()?;
         let rows_of =
@@ -97,7 +98,8 @@ impl<'a> Writing<'a> {
     }
 }
 
-/// One line for all files of the card; a year of cards would not fit into the metadata. Each recording lists its own.
+/// The hashes with one line for all files of the card, since a year of cards would not fit into the metadata. Each recording
+/// lists its own files.
 fn in_short(session: &str, inputs_sha256: BTreeMap<String, String>) -> BTreeMap<String, String> {
     let card = format!("cards/{session}");
     let is_of_card = |file: &str| file.strip_prefix(&card).is_some_and(|rest| rest.starts_with('/'));
@@ -120,7 +122,7 @@ fn settings(study: &Study) -> Result<serde_json::Value, serde_json::Error> {
     }))
 }
 
-/// Hashes of the files that concern the whole study.
+/// SHA-256 of each file that concerns the whole study.
 pub(super) fn study_inputs(study: &Study) -> Result<BTreeMap<String, String>, Halted> {
     let mut files = vec!["study.toml".to_owned(), "objects.csv".to_owned()];
     files.extend(study.dir.join(NAMES_FILE).exists().then(|| NAMES_FILE.to_owned()));
@@ -136,7 +138,7 @@ pub(super) fn study_inputs(study: &Study) -> Result<BTreeMap<String, String>, Ha
     files.into_iter().map(hash).collect()
 }
 
-/// Names of the study's own profiles and cameras.
+/// The names of the study's own profiles and cameras.
 fn device_files(devices: &Path) -> Vec<String> {
     let names =
         std::fs::read_dir(devices).into_iter().flatten().filter_map(|entry| entry.ok()?.file_name().into_string().ok());

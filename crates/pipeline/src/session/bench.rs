@@ -1,4 +1,4 @@
-//! Known sizes of a session, for its calibration.
+//! The sizes of a session that are known, for a calibration to learn from.
 
 use model::calibrate::physical::BenchSize;
 use model::{Estimate, Method, Pose, Quantity, View, best_of, estimate};
@@ -7,7 +7,7 @@ use super::frames::Session;
 use super::marked::Marked;
 use super::output::BenchSession;
 
-/// Sizes with a truth, by the surest exact method whose assumptions hold.
+/// The sizes that have a truth, each by the surest exact method whose assumptions hold, and the angles that were set.
 pub(super) fn bench_session(session: &Session<'_>, marked: &[Marked<'_>]) -> BenchSession {
     let spec = &session.spec;
     let sizes = |pose: fn(&Marked<'_>) -> Option<Pose>| {

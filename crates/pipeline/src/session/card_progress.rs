@@ -1,11 +1,12 @@
-//! What an ingest hears from a session at work.
+//! The link between a session at work and the ingest of its card.
 
 use ingest::{ByteBudget, IngestProgress};
 
 use crate::reporter::Reporter;
 use crate::stop::Stop;
 
-/// Tells a session's reporter; passes on a wish to stop, and the bound of images in memory.
+/// Passes the progress of an ingest on to the reporter, and to the ingest the wish to stop and the bound of images in
+/// memory.
 pub(crate) struct CardProgress<'a> {
     pub session: &'a str,
     pub reporter: &'a dyn Reporter,

@@ -1,4 +1,4 @@
-//! Sizes of rims that the program found: their heights come from the picture, with an uncertainty that images share.
+//! Sizes of found rims: the height of such a rim comes from the picture, with an uncertainty that its images share.
 
 use model::{
     Container, Estimate, Feature, InputSigma, Kind, Mark, MeasureError, Method, Quantity, Sensitivity, Shape,
@@ -6,9 +6,9 @@ use model::{
 };
 
 use super::marked::Marked;
-use crate::rims::{Found, HeightSource};
+use rims::{Found, HeightSource};
 
-/// Sizes by one method: of people's marks as they are; of a rim that was found with what is known of its height.
+/// The sizes by one method: of people's marks as they are, of a found rim with the height that the program measured.
 pub(super) fn estimates(
     marked: &Marked<'_>,
     view: &View,
@@ -18,24 +18,25 @@ pub(super) fn estimates(
     let Some(found) = by_itself(marked) else {
         return estimate(view, method, container, marked.marks, inputs);
     };
-    // A rim alone has no base, by which it would be coaxial.
+    // A rim alone has no base, so nothing can be coaxial with it.
     if method == Method::Coaxial {
         return Vec::new();
     }
     let sizes = found.sizes(view, method, container, marked.marks, inputs);
-    // What bowls commonly have is no measurement; and the foot was found by exact geometry, not by the paper's.
+    // A height that is common among bowls is no measurement; and a foot or floor was found by exact geometry, not by the
+    // paper's.
     let source = found.height_as(container).source;
     let is_seen = matches!(source, HeightSource::Foot | HeightSource::Floor) && method == Method::Ray;
     let kept = sizes.into_iter().filter(|(quantity, _)| *quantity != Quantity::Height || is_seen);
     kept.map(|(quantity, size)| (quantity, size.map(|estimate| with_shared(estimate, &marked.inputs)))).collect()
 }
 
-/// Where the height of the rim comes from, of a rim that is measured by what was found of it.
+/// The source of the rim's height; none unless the rim is measured as the program found it.
 pub(super) fn height_source(marked: &Marked<'_>) -> Option<HeightSource> {
     Some(by_itself(marked)?.height_as(&marked.object.container).source)
 }
 
-/// What was found of the rim, unless a person has added other marks, or the object has another shape.
+/// The found rim behind the marks; none where a person has added other marks, or the object has another shape.
 fn by_itself<'a>(marked: &'a Marked<'_>) -> Option<&'a Found> {
     let is_rim = |mark: &Mark| matches!(mark, Mark::Outline { feature: Feature::Rim, .. });
     let Container { kind, shape, .. } = marked.object.container;
@@ -43,7 +44,8 @@ fn by_itself<'a>(marked: &'a Marked<'_>) -> Option<&'a Found> {
     marked.found.as_ref().filter(|found| is_as_found(found) && marked.marks.marks.iter().all(is_rim))
 }
 
-/// Height and edge of a rim err alike in all images of it: that part counts as common; and images are weighed by all of it.
+/// The estimate with the errors that its images share counted as common. The height and the edge of one rim err alike in all
+/// of its images. Images are still weighed by the whole uncertainty.
 fn with_shared(estimate: Estimate, inputs: &InputSigma) -> Estimate {
     let Estimate { sigma, sensitivity, .. } = &estimate;
     let by_points_mm = sensitivity.marks_mm_per_px * inputs.mark_px;
@@ -57,14 +59,15 @@ fn with_shared(estimate: Estimate, inputs: &InputSigma) -> Estimate {
     Estimate { sigma, sensitivity, ..estimate }
 }
 
-/// The part of an estimate that all images share beyond their inputs; see [`with_shared`].
+/// The part of an estimate's uncertainty, in mm, that all images share beyond the common part of their inputs; see
+/// [`with_shared`].
 pub(super) fn shared_mm(estimate: &Estimate, inputs: &InputSigma) -> f64 {
     let by_inputs_mm = estimate.sensitivity.sigma(inputs).common_mm;
     (estimate.sigma.common_mm.powi(2) - by_inputs_mm.powi(2)).max(0.0).sqrt()
 }
 
-/// The uncertainty of a fused size, from weight and shared part of every image: what images share was fused as if it were each
-/// image's own, and does not average out.
+/// The uncertainty of a fused size; `shares` holds weight and shared part (mm) of every image. The fusion took what images
+/// share for each image's own, but that part does not average out, so it is put back here.
 pub(super) fn fused_sigma(sigma: &SizeSigma, shares: impl IntoIterator<Item = (f64, f64)>, mark_px: f64) -> SizeSigma {
     let (mut averaged, mut common_mm) = (0.0, 0.0);
     for (weight, shared_mm) in shares {

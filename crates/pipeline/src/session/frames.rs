@@ -1,4 +1,7 @@
-//! The images of a session with their signals, and how far each is to be trusted.
+//! Step *select*: decides for each image whether it has a pose and counts for fused sizes, and how far it is to be trusted.
+//!
+//! - Input: the images and sensor readings of a [`Recording`], and the thresholds of `[signals]` and `[select]`.
+//! - Output: a [`Session`], whose frames hold signals, pose and the one reason that the ledger gives.
 
 use ingest::{DroppedImage, ImageEntry};
 use model::{Camera, FrameFlag, InputSigma};
@@ -9,18 +12,18 @@ use crate::calibration::inputs_after;
 use crate::signals::{FrameSignals, Reading};
 use crate::study::{SessionDir, SessionSpec, Study};
 
-/// An image with its signals, as the later steps see it.
+/// An image with its signals, as all later steps see it.
 pub(super) struct Frame {
     pub image: ImageEntry,
     pub signals: FrameSignals,
 }
 
-/// All of a session that is known once its card and session.toml are read.
+/// A session once its card and session.toml have been read.
 pub(super) struct Session<'a> {
     pub study: &'a Study,
     pub dir: &'a SessionDir,
     pub spec: SessionSpec,
-    /// Camera of the pictures that were marked.
+    /// The camera of the pictures that people marked.
     pub marks_camera: Camera,
     pub frames: Vec<Frame>,
     pub dropped: Vec<DroppedImage>,
@@ -33,13 +36,13 @@ impl<'a> Session<'a> {
         Self { study, dir, spec, marks_camera, frames, dropped: recording.dropped }
     }
 
-    /// Where a file of the card is, relative to the study.
+    /// The path of a file of the card, relative to the study.
     pub(super) fn place_of(&self, file: &str) -> String {
         format!("cards/{}/{file}", self.dir.name)
     }
 }
 
-/// The images of a recording with their signals.
+/// The images of a recording with their signals, in the order of time.
 pub(super) fn frames(study: &Study, prepared: &Prepared, recording: &Recording) -> Vec<Frame> {
     let settings = prepared.pose_settings(study, recording.mount_pitch_deg);
     let of_image =
@@ -47,7 +50,7 @@ pub(super) fn frames(study: &Study, prepared: &Prepared, recording: &Recording) 
     recording.images.iter().zip(&recording.readings).map(of_image).collect()
 }
 
-/// Uncertainties of one image: the study's, with the noise that its own signals show.
+/// The uncertainties of one image's inputs: the study's, with the noise that the image's own signals show.
 pub(super) fn inputs_of(study: &Study, frame: &Frame) -> InputSigma {
     let signals = &frame.signals;
     let readings = f64::from(signals.range_distinct.max(1));
@@ -56,8 +59,9 @@ pub(super) fn inputs_of(study: &Study, frame: &Frame) -> InputSigma {
     inputs_after(study.calibration.as_ref(), inputs)
 }
 
-/// Doubts about an image that its uncertainties do not hold: motion near the threshold, readings of the range that scatter
-/// by more than the sensor's accuracy, and flagged signals (docs/uncertainty.md).
+/// The factor, at least 1, on the variance with which an image is weighed. It stands for doubts that the uncertainties do
+/// not hold: motion near the threshold, range readings that scatter by more than the sensor's accuracy, and flagged signals
+/// (docs/uncertainty.md).
 pub(super) fn penalty_of(study: &Study, frame: &Frame) -> f64 {
     let signals = &frame.signals;
     let motion = signals.stillness_mg.unwrap_or_default() / study.spec.signals.stillness_max_mg;
@@ -68,7 +72,7 @@ pub(super) fn penalty_of(study: &Study, frame: &Frame) -> f64 {
     (1.0 + motion * motion) * (1.0 + spread * spread) * FLAGGED.powi(i32::try_from(flags).unwrap_or(i32::MAX))
 }
 
-/// Readings that scatter by this share of the range are unsteady.
+/// Range readings whose spread is this share of the range are unsteady.
 const UNSTEADY_RANGE: f64 = 0.03;
-/// A flag doubles the standard uncertainty that an image is weighed with.
+/// A flag doubles the standard uncertainty with which an image is weighed.
 const FLAGGED: f64 = 4.0;

@@ -1,18 +1,18 @@
-//! The lag between a session's images and its sensors, when it is asked for.
+//! The lag between a session's images and its sensors, where the study asks for it.
 
 use ingest::{ImageEntry, ReadError, SessionReader, Thumbnail};
-use model::{Problem, Severity, Stage};
+use model::{Problem, ProblemCode, Severity, Stage};
 
 use crate::signals::lag::{self, LagEstimate, LagVerdict, PairMotion};
 
-/// So many pairs of pictures are decoded at most, spread over the session.
+/// At most this many pairs of pictures are decoded, spread over the session.
 const MAX_PAIRS: usize = 300;
-/// Pictures further apart than this have little to do with each other.
+/// Pictures further apart in time than this have little in common.
 const MAX_APART_S: f64 = 30.0;
-/// Larger side of the pictures that are compared.
+/// The larger side of the reduced pictures that are compared.
 const THUMBNAIL_PX: u32 = 64;
 
-/// Estimates the lag from pairs of consecutive images (in the order of time).
+/// Estimates the lag from pairs of consecutive images, which must be in the order of time.
 pub(super) fn estimate(reader: &mut SessionReader, images: &[ImageEntry]) -> Result<LagEstimate, ReadError> {
     let firsts = chosen(images);
     let mut needed: Vec<usize> = firsts.iter().flat_map(|first| [*first, first + 1]).collect();
@@ -32,7 +32,7 @@ pub(super) fn estimate(reader: &mut SessionReader, images: &[ImageEntry]) -> Res
     Ok(lag::estimate(&firsts.iter().filter_map(pair).collect::<Vec<_>>()))
 }
 
-/// The first image of each pair.
+/// The numbers of the images that begin a pair.
 fn chosen(images: &[ImageEntry]) -> Vec<usize> {
     let near = |i: &usize| images[i + 1].time.seconds_since(images[*i].time) <= MAX_APART_S;
     let all: Vec<usize> = (0..images.len().saturating_sub(1)).filter(near).collect();
@@ -40,7 +40,7 @@ fn chosen(images: &[ImageEntry]) -> Vec<usize> {
     all.into_iter().step_by(step).collect()
 }
 
-/// None for a picture that cannot be decoded: its pairs are left out.
+/// The reduced picture; none where it cannot be decoded, and its pairs are then left out.
 fn thumbnail(reader: &mut SessionReader, file: &str) -> Result<Option<Thumbnail>, ReadError> {
     let bytes = reader.image_bytes(file)?;
     let decoded = ingest::thumbnail(&bytes, THUMBNAIL_PX);
@@ -50,17 +50,17 @@ fn thumbnail(reader: &mut SessionReader, file: &str) -> Result<Option<Thumbnail>
     Ok(decoded.ok())
 }
 
-/// What to tell of it; `declared_s` is what the signals were looked up with.
+/// The note for the session's status; `declared_s` is the lag with which the signals were looked up.
 pub(super) fn note(session: &str, estimate: &LagEstimate, declared_s: f64) -> Problem {
     let facts = facts(estimate);
     let (code, fact, remedy) = match estimate.verdict {
-        LagVerdict::Told => (
-            "image_lag_estimated",
+        LagVerdict::Known => (
+            ProblemCode::ImageLagEstimated,
             format!("{facts}; declared and used: {declared_s:.1} s"),
             "if it differs from the declared one and is alike in other sessions, set [time] image_lag_s to it",
         ),
         _ => (
-            "image_lag_unknown",
+            ProblemCode::ImageLagUnknown,
             format!("the lag between images and sensors cannot be told: {}{facts}", why(estimate.verdict)),
             "nothing was changed; a session with more motion, or a nod in front of the camera, tells more",
         ),
@@ -68,7 +68,7 @@ pub(super) fn note(session: &str, estimate: &LagEstimate, declared_s: f64) -> Pr
     Problem {
         severity: Severity::Note,
         stage: Stage::Signals,
-        code: code.to_owned(),
+        code,
         place: format!("cards/{session}"),
         fact,
         remedy: remedy.to_owned(),
@@ -77,7 +77,7 @@ pub(super) fn note(session: &str, estimate: &LagEstimate, declared_s: f64) -> Pr
 
 fn why(verdict: LagVerdict) -> &'static str {
     match verdict {
-        LagVerdict::Told => "",
+        LagVerdict::Known => "",
         LagVerdict::TooFewPairs => "fewer than 30 pairs of pictures with acceleration around both; ",
         LagVerdict::NoAgreement => "pictures and gravity agree no better than by chance; ",
         LagVerdict::NotSharp => "they agree nearly as well at other lags; ",
@@ -123,20 +123,20 @@ mod tests {
     #[test]
     fn the_note_says_what_was_found_and_what_was_used() {
         let estimated = LagEstimate {
-            verdict: LagVerdict::Told,
+            verdict: LagVerdict::Known,
             lag_s: Some(-1.52),
             correlation: Some(0.71),
             half_width_s: Some(0.35),
             pairs: 250,
         };
         let problem = note("P01", &estimated, 0.0);
-        assert_eq!((problem.code.as_str(), problem.severity), ("image_lag_estimated", Severity::Note));
+        assert_eq!((problem.code, problem.severity), (ProblemCode::ImageLagEstimated, Severity::Note));
         assert!(
             problem.fact.contains("-1.52 +- 0.35 s") && problem.fact.contains("declared and used: 0.0 s"),
             "{}",
             problem.fact
         );
         let unknown = note("P01", &LagEstimate { verdict: LagVerdict::NotSharp, ..estimated }, 0.0);
-        assert_eq!(unknown.code, "image_lag_unknown");
+        assert_eq!(unknown.code, ProblemCode::ImageLagUnknown);
     }
 }

@@ -1,4 +1,4 @@
-//! Rows of the ledger.
+//! The rows of the ledger, frames.parquet.
 
 use std::collections::BTreeMap;
 
@@ -10,10 +10,10 @@ use super::session_marks::SessionMarks;
 use super::surest::Surest;
 use crate::study::{SessionDir, Study};
 
-/// One row for every image of the session: those with data by time, then the dropped ones by file.
+/// One row for every image of the session: first those with data, by time, then the dropped ones, by file.
 pub(super) fn ledger(session: &Session<'_>, marks: &SessionMarks, results: &[ResultRow]) -> Vec<FrameRow> {
     let mut sizes: BTreeMap<&str, u32> = BTreeMap::new();
-    // 'best' repeats one of the others.
+    // A size by 'best' repeats one by another method.
     let counted = results.iter().filter(|row| row.predicted_mm.is_some() && row.method != Method::Best);
     for file in counted.filter_map(|row| row.image.as_deref()) {
         *sizes.entry(file).or_default() += 1;
@@ -50,7 +50,7 @@ pub(super) fn ledger(session: &Session<'_>, marks: &SessionMarks, results: &[Res
     with_data.chain(dropped).collect()
 }
 
-/// One row for every image on the card of a session of which nothing could be used, by file.
+/// One row for every image on the card, by file, for a session of which nothing could be used.
 pub(super) fn ledger_of_failed(study: &Study, dir: &SessionDir) -> Vec<FrameRow> {
     let (Some(card_dir), Some(images)) = (&dir.card, &study.profile.images) else { return Vec::new() };
     if !study.holds(card_dir) {

@@ -1,37 +1,38 @@
-//! The objects that are marked on images with a pose: what sizes are measured of.
+//! The objects that are marked on images with a pose, which is all that can be measured.
 
-use model::{InputSigma, Method, ObjectMarks, Problem, Severity, Stage, View};
+use model::{InputSigma, Method, ObjectMarks, Problem, ProblemCode, Severity, Stage, View};
 
 use super::frames::{Frame, Session, inputs_of};
 use super::session_marks::{MarkedObject, SessionMarks};
 use crate::calibration::corrected_view;
-use crate::rims::Found;
 use crate::study::Object;
+use rims::Found;
 
-/// One object as one rater marked it on one frame.
+/// One object as one rater marked it on one image.
 pub(super) struct Marked<'a> {
     pub session: &'a Session<'a>,
-    /// Number of the frame in its session.
+    /// The number of the image in its session.
     pub number: usize,
     pub frame: &'a Frame,
     pub rater: &'a str,
     pub object: &'a Object,
     pub marks: &'a ObjectMarks,
-    /// What is known of a rim that the program found.
+    /// The found rim behind the marks, where the program made them.
     pub found: Option<Found>,
-    /// Uncertainties of this image.
+    /// The uncertainties of this image's inputs.
     pub inputs: InputSigma,
 }
 
 impl Marked<'_> {
-    /// The view that a method works with; none without a pose.
+    /// The view that a method works with, a calibration applied; none without a pose.
     pub(super) fn view(&self, method: Method) -> Option<View> {
         let view = View::new(self.session.marks_camera, self.frame.signals.pose_for(method)?);
         corrected_view(self.session.study.calibration.as_ref(), method, view)
     }
 }
 
-/// Everything that is marked on frames with a pose.
+/// Everything that is marked on images with a pose, in the order of time, rater and object. A marked image without a pose
+/// becomes a problem.
 pub(super) fn marked<'a>(
     session: &'a Session<'a>,
     marks: &'a SessionMarks,
@@ -58,7 +59,7 @@ fn unusable(session: &Session<'_>, frame: &Frame, rater: &str) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Signals,
-        code: "marked_image_without_pose".to_owned(),
+        code: ProblemCode::MarkedImageWithoutPose,
         place: session.place_of(&frame.image.file),
         fact: format!("marked by {rater}, but {}", frame.signals.reason.meaning()),
         remedy: "mark another image of the same object, or see frames.parquet for the numbers behind it".to_owned(),

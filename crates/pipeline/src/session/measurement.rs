@@ -1,9 +1,13 @@
-//! Sizes of everything that is marked on single images.
+//! Step *measure*: turns the marks on single images into sizes with their uncertainty.
+//!
+//! - Input: the marked objects of a session ([`Marked`]), and `[measure]` of study.toml.
+//! - Output: one [`Measurement`] for each object, rater, image, quantity and method.
 
 use std::collections::BTreeSet;
 
 use model::{
-    Doubt, Estimate, InputSigma, MeasureError, Method, Problem, Quantity, ResultRow, Severity, Stage, View, best_of,
+    Doubt, Estimate, InputSigma, MeasureError, Method, Problem, ProblemCode, Quantity, ResultRow, Severity, Stage,
+    View, best_of,
 };
 
 use super::found;
@@ -12,33 +16,33 @@ use super::marked::Marked;
 use super::row::frame_row;
 use crate::calibration::scaled_paper;
 
-/// A row with the estimate behind it.
+/// A row of level frame with the estimate behind it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Measurement {
     pub row: ResultRow,
-    /// None where the size could not be measured.
+    /// The estimate; none where the size could not be measured.
     pub estimate: Option<Estimate>,
-    /// Uncertainties of its image.
+    /// The uncertainties of the image's inputs.
     pub inputs: InputSigma,
-    /// Number of the image in its session.
+    /// The number of the image in its session.
     pub picture: usize,
-    /// Part of the marks' uncertainty that all images share, mm: the height and the edge of a rim that was found.
+    /// The part of the marks' uncertainty, in mm, that all images share: the height and the edge of a found rim.
     pub shared_mm: f64,
-    /// At least 1: factor on its variance where it is weighed against other images.
+    /// The factor, at least 1, on the variance with which the size is weighed against those of other images.
     pub penalty: f64,
 }
 
-/// The methods that give sizes from one image.
+/// The methods that give sizes from a single image.
 pub(super) const ON_ONE_IMAGE: [Method; 3] = [Method::Paper, Method::Ray, Method::Coaxial];
 
-/// Sizes of single images, in the order that docs/results.md gives.
+/// The sizes on all images, in the order that docs/results.md gives. A size that cannot be measured becomes a problem.
 pub(super) fn measure_all(marked: &[Marked<'_>], problems: &mut Vec<Problem>) -> Vec<Measurement> {
     let mut measurements: Vec<Measurement> = marked.iter().flat_map(|marked| measure_one(marked, problems)).collect();
     measurements.sort_by(|a, b| order(&a.row).cmp(&order(&b.row)));
     measurements
 }
 
-/// What the rows of one session are ordered by.
+/// The key by which the rows of a session are ordered.
 fn order(row: &ResultRow) -> impl Ord + '_ {
     (row.time_utc, &row.image, &row.object, &row.rater, row.quantity, row.method)
 }
@@ -58,7 +62,7 @@ fn measure_one(marked: &Marked<'_>, problems: &mut Vec<Problem>) -> Vec<Measurem
         .collect();
     report_unmeasured(marked, &sizes, problems);
     let best = if wants_best { best_sizes(&sizes) } else { Vec::new() };
-    // Methods that were not asked for are candidates for the best, and left out at the end.
+    // A method that was not asked for is still a candidate for the best; its rows are left out at the end.
     sizes
         .into_iter()
         .chain(best)
@@ -66,8 +70,8 @@ fn measure_one(marked: &Marked<'_>, problems: &mut Vec<Problem>) -> Vec<Measurem
         .collect()
 }
 
-/// The paper's method takes readings as they are, and has a line in tan(pitch) at most; where the study or its calibration
-/// says that readings are off, that is a doubt.
+/// The estimate with a doubt where it is by the paper's method and the study or its calibration says that the readings are
+/// off: that method takes them as they are, or corrects them by a line in tan(pitch) at most.
 fn as_read(marked: &Marked<'_>, view: &View, estimate: Estimate) -> Estimate {
     let study = marked.session.study;
     let kind = marked.object.container.kind;
@@ -79,7 +83,7 @@ fn as_read(marked: &Marked<'_>, view: &View, estimate: Estimate) -> Estimate {
     estimate
 }
 
-/// The best of each quantity, in place of any method of its own.
+/// The best size of each quantity, as rows of method 'best'.
 fn best_sizes(
     sizes: &[(Method, Quantity, Result<Estimate, MeasureError>)],
 ) -> Vec<(Method, Quantity, Result<Estimate, MeasureError>)> {
@@ -117,8 +121,8 @@ fn measurement(
     })
 }
 
-/// What could not be measured, each kind of it once; and objects whose marks give nothing at all. A height that nobody marked
-/// is no problem where another method does without.
+/// Adds a problem for each kind of thing that could not be measured, and for an object whose marks give nothing at all. A
+/// height that nobody marked is no problem where another method does without it.
 fn report_unmeasured(
     marked: &Marked<'_>,
     sizes: &[(Method, Quantity, Result<Estimate, MeasureError>)],
@@ -129,12 +133,12 @@ fn report_unmeasured(
     for (_, quantity, size) in sizes {
         if let Err(error) = size
             && !(*error == MeasureError::NoHeight && measured.contains(quantity))
-            && reported.insert((*quantity, error.code()))
+            && reported.insert((*quantity, error.problem_code()))
         {
             problems.push(unmeasured(marked, *quantity, error));
         }
     }
-    // Marks for a method that needs several images give nothing on one.
+    // Marks for a method that needs several images give nothing on one of them.
     if sizes.is_empty() && marked.session.study.spec.measure.methods.iter().any(|m| *m != Method::Joint) {
         problems.push(nothing(marked));
     }
@@ -144,7 +148,7 @@ fn unmeasured(marked: &Marked<'_>, quantity: Quantity, error: &MeasureError) -> 
     Problem {
         severity: Severity::Loss,
         stage: Stage::Measure,
-        code: error.code().to_owned(),
+        code: error.problem_code(),
         place: marked.session.place_of(&marked.frame.image.file),
         fact: format!("{quantity} of '{}' marked by {}: {error}", marked.marks.object, marked.rater),
         remedy: "correct the marks in LabelMe and run again".to_owned(),
@@ -156,7 +160,7 @@ fn nothing(marked: &Marked<'_>) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Measure,
-        code: "nothing_to_measure".to_owned(),
+        code: ProblemCode::NothingToMeasure,
         place: marked.session.place_of(&marked.frame.image.file),
         fact: format!("the marks of '{}' by {} give no size of a {shape}", marked.marks.object, marked.rater),
         remedy: "mark a diameter, width, length, height or the rim (docs/study.md)".to_owned(),

@@ -1,4 +1,7 @@
-//! One session from end to end: card -> MCAP -> signals -> marks -> sizes -> rows.
+//! One session from end to end: card -> MCAP -> signals -> select -> marks -> measure -> fuse -> rows.
+//!
+//! [`road`] calls the steps. Each has a module that names its inputs and outputs: `recording` (with [`crate::signals`]),
+//! `frames`, `session_marks` (with `auto`, which finds rims), `measurement`, `fuse`.
 
 mod auto;
 mod bench;
@@ -28,7 +31,7 @@ pub(crate) use card_progress::CardProgress;
 pub(crate) use output::{Searched, SessionOutput};
 pub(crate) use prepared::Prepared;
 pub(crate) use problems::without_host;
-pub(crate) use recording::{BAD_MCAP, Recording, read as read_recording};
+pub(crate) use recording::{Recording, read as read_recording};
 pub(crate) use road::{
     Measuring, SessionOptions, failed, finish_status, ingest_problem, ingest_without_state, log_problems, run_session,
 };

@@ -1,21 +1,21 @@
-//! Found containers under the names of the objects that they are, by names.csv.
+//! Gives found containers the names of the objects that they are, by names.csv.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use model::{ObjectMarks, Problem, Severity, Stage};
+use model::{ObjectMarks, Problem, ProblemCode, Severity, Stage};
 
-use crate::rims::Found;
 use crate::study::{NAMES_FILE, Named, SessionDir, Study, number_of_found};
+use rims::Found;
 
-/// What is marked on one image, and what is known of it where the program found it.
+/// The marks on one image by object; with the found rim where the program made them.
 pub(super) type Marks = Vec<(ObjectMarks, Option<Found>)>;
 
-/// The names of one session, and which of them were of use.
+/// The names of one session, and which of them have been used.
 #[derive(Debug, Default)]
 pub(super) struct Naming {
     names: BTreeMap<String, Named>,
     used: BTreeSet<String>,
-    /// Whether there was any container that could be named.
+    /// Whether any container that names.csv could name was met.
     met: bool,
 }
 
@@ -24,8 +24,8 @@ impl Naming {
         Self { names: study.names.get(&dir.name).cloned().unwrap_or_default(), ..Self::default() }
     }
 
-    /// The marks of one image, each under the name of its object. Where two get the same name, what a person calls so comes
-    /// first, then the likelier rim; the other one becomes a problem at `place`.
+    /// The marks of one image, each under the name of its object. Where two get the same name, marks that a person gave that
+    /// name come first, then the likelier rim; the other one is left out, with a problem at `place`.
     pub fn rename(&mut self, marks: Marks, place: &str, problems: &mut Vec<Problem>) -> Marks {
         let mut by_object: BTreeMap<String, (String, ObjectMarks, Option<Found>)> = BTreeMap::new();
         for (marks, found) in marks {
@@ -47,21 +47,22 @@ impl Naming {
         by_object.into_values().map(|(_, marks, found)| (marks, found)).collect()
     }
 
-    /// Names that no container of the session has, where one was looked for.
+    /// A problem for each name that no container of the session has, where one was looked for.
     pub fn unused(&self, session: &str, searched: bool) -> Vec<Problem> {
         let is_unused = |(found, _): &(&String, &Named)| (searched || self.met) && !self.used.contains(*found);
         self.names.iter().filter(is_unused).map(|(found, named)| not_found(found, named, session)).collect()
     }
 }
 
-/// What a person calls so comes first, then what he marked himself.
+/// The rank among marks of one name: those that a person gave it come first, then those that a person made, then the
+/// likelier rim.
 fn surety((was, marks, found): &(String, ObjectMarks, Option<Found>)) -> (bool, f64) {
     (*was == marks.object, found.map_or(f64::INFINITY, |found| found.confidence))
 }
 
 fn twice(kept: &str, left: &str, object: &str, place: &str) -> Problem {
     problem(
-        "named_twice",
+        ProblemCode::NamedTwice,
         place.to_owned(),
         format!("'{kept}' and '{left}' are both '{object}' and both in this image; '{left}' is left out"),
         "take the wrong one out of names.csv, or name it as another object",
@@ -70,15 +71,15 @@ fn twice(kept: &str, left: &str, object: &str, place: &str) -> Problem {
 
 fn not_found(found: &str, Named { object, line }: &Named, session: &str) -> Problem {
     problem(
-        "name_not_found",
+        ProblemCode::NameNotFound,
         format!("{NAMES_FILE} line {line}"),
         format!("nothing in session '{session}' is named '{found}', so '{object}' has no size from it"),
         "look up the names in the results, which change with the settings, or take the line out",
     )
 }
 
-fn problem(code: &str, place: String, fact: String, remedy: &str) -> Problem {
-    let (code, remedy) = (code.to_owned(), remedy.to_owned());
+fn problem(code: ProblemCode, place: String, fact: String, remedy: &str) -> Problem {
+    let remedy = remedy.to_owned();
     Problem { severity: Severity::Loss, stage: Stage::Marks, code, place, fact, remedy }
 }
 
@@ -87,7 +88,7 @@ mod tests {
     use model::{Kind, Shape};
 
     use super::*;
-    use crate::rims::{HeightSource, RimHeight};
+    use rims::{HeightSource, RimHeight};
 
     fn naming() -> Naming {
         let named = |line| Named { object: "dinner plate".to_owned(), line };
@@ -130,7 +131,7 @@ mod tests {
         let (marks, problems) = named(&mut naming(), vec![rim("auto-1", Some(0.6)), rim("auto-3", Some(0.9))]);
         assert_eq!(marks, [("dinner plate".to_owned(), Some(0.9))]);
         assert!(
-            matches!(problems.as_slice(), [one] if one.code == "named_twice" && one.fact.contains("'auto-1' is left out"))
+            matches!(problems.as_slice(), [one] if one.code.code() == "named_twice" && one.fact.contains("'auto-1' is left out"))
         );
         let by_hand = vec![rim("auto-1", Some(0.99)), rim("dinner plate", Some(0.5)), rim("auto-3", None)];
         let (marks, problems) = named(&mut naming(), by_hand);

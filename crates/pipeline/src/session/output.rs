@@ -1,4 +1,4 @@
-//! What one session gives.
+//! The result of one session: rows, ledger, status, and what is kept for other commands.
 
 use std::collections::BTreeMap;
 
@@ -9,49 +9,50 @@ use serde::{Deserialize, Serialize};
 use super::shown::Shown;
 use crate::labelme::AutoRim;
 
-/// What one session gives.
+/// The result of one session: rows, ledger, status, and what is kept for other commands.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SessionOutput {
-    /// How it fared.
+    /// How the session fared.
     pub status: SessionStatus,
-    /// Sizes.
+    /// Rows of results.parquet.
     pub results: Vec<ResultRow>,
-    /// Every image.
+    /// Rows of the ledger, one for each image.
     pub frames: Vec<FrameRow>,
-    /// SHA-256 of what was read, by path relative to the study.
+    /// SHA-256 of each file that was read, by its path relative to the study.
     pub inputs_sha256: BTreeMap<String, String>,
-    /// Rims that the program found itself, by image (file on the card).
+    /// The found rims by image (file on the card).
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub auto: BTreeMap<String, Vec<AutoRim>>,
-    /// What they came from, where they may serve again.
+    /// The search that gave them, where its result may be used again.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub searched: Option<Searched>,
-    /// What was measured where, for those who show pictures.
+    /// The pictures in which something was measured, for commands that show them.
     #[serde(default)]
     pub shown: Shown,
-    /// Known sizes, where a calibration asks for them.
+    /// The known sizes, where a calibration asks for them.
     #[serde(skip)]
     pub bench: BenchSession,
 }
 
-/// A search for rims that need not be made again.
+/// A search for rims that need not be repeated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Searched {
-    /// Key of what it was made from.
+    /// The key of everything that the search depends on.
     pub key: String,
-    /// Pictures that could not be searched.
+    /// The pictures that could not be searched.
     pub problems: Vec<Problem>,
 }
 
-/// What one session of a bench tells.
+/// Known sizes and angles of one session of a bench.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct BenchSession {
-    /// Whether session.toml declares a setup: such sessions are a bench, others a study that happens to have true sizes.
+    /// Whether session.toml declares a setup. Sessions that do are a bench; others belong to a study that happens to have
+    /// true sizes.
     pub declared: bool,
-    /// Known sizes with the readings as they are.
+    /// The known sizes, with the range as it was read.
     pub sizes: Vec<BenchSize>,
-    /// The same with the range corrected for the sensor's cone, where it can be.
+    /// The known sizes, with the range corrected for the sensor's cone where that can be done.
     pub cone_sizes: Vec<BenchSize>,
-    /// Declared and measured pitch of each image, in degrees.
+    /// The declared and the measured pitch of each image, in degrees.
     pub angles_deg: Vec<(f64, f64)>,
 }

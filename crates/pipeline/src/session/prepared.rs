@@ -1,26 +1,26 @@
-//! What is known of a session before its card is read.
+//! A session before its card is read: its settings and cameras.
 
 use std::path::Path;
 
 use ingest::SessionSource;
-use model::{Camera, CameraSpec, Problem, Severity, Stage};
+use model::{Camera, CameraSpec, Problem, ProblemCode, Severity, Stage};
 
 use super::problems::{MARKS_CAMERA_FACT, bad_camera, card_out_of_reach, link_out_of_study, missing_card};
 use crate::inputs::sha256_of_file;
 use crate::signals::PoseSettings;
 use crate::study::{SessionDir, SessionSpec, Study};
 
-/// What a session is made from, settings resolved.
+/// Everything that a session is made from but its files, with all settings resolved.
 pub(crate) struct Prepared {
-    /// session.toml.
+    /// The settings of session.toml.
     pub spec: SessionSpec,
-    /// What its card is ingested from.
+    /// The input of its ingest: the card with profile, camera and clock.
     pub source: SessionSource,
-    /// The session's camera.
+    /// The camera of the recorded pictures.
     pub camera: Camera,
-    /// Camera of the pictures that were marked.
+    /// The camera of the pictures that people marked.
     pub marks_camera: (CameraSpec, Camera),
-    /// Path and hash of session.toml, if there is one.
+    /// The path and SHA-256 of session.toml, if there is one.
     pub session_toml_sha256: Option<(String, String)>,
 }
 
@@ -50,7 +50,7 @@ impl Prepared {
         Ok(Self { spec, source, camera: camera.1, marks_camera, session_toml_sha256 })
     }
 
-    /// From readings to pose and choice; `mount_pitch_deg` is the device profile's.
+    /// The settings by which readings become a pose and a choice; `mount_pitch_deg` is the device profile's.
     pub fn pose_settings(&self, study: &Study, mount_pitch_deg: f64) -> PoseSettings {
         let mount_pitch_deg = study.spec.mount.pitch_offset_deg.unwrap_or(mount_pitch_deg);
         study.spec.signals.pose_settings(&study.spec.select, mount_pitch_deg.to_radians())
@@ -66,7 +66,7 @@ fn session_spec(study: &Study, card: &Path) -> Result<(SessionSpec, Option<(Stri
     let refuse = |fact: String| Problem {
         severity: Severity::Loss,
         stage: Stage::Study,
-        code: "bad_session_toml".to_owned(),
+        code: ProblemCode::BadSessionToml,
         place: place.clone(),
         fact,
         remedy: "correct the file (docs/study.md)".to_owned(),

@@ -1,35 +1,38 @@
-//! A session's MCAP file: its images with what the sensors read around them, and what is worth a note about them.
+//! Step *signals* of one session: reads its MCAP file.
+//!
+//! - Input: the MCAP file of the session, and `[signals]` and `[time]` of study.toml.
+//! - Output: a [`Recording`], which holds the images, the sensor readings around each of them, and problems and notes.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use ingest::{DroppedImage, ImageEntry, SessionReader};
-use model::{Problem, Severity, Stage};
+use model::{Problem, ProblemCode, Severity, Stage};
 use serde::{Deserialize, Serialize};
 
 use super::lag;
 use crate::signals::{self, GravityCalibrate, GravityCalibration, Reading};
 use crate::study::Study;
 
-/// What the signals stage gives: all that measuring needs to know of a recording, but the pictures.
+/// The result of stage signals: everything that measuring needs to know of a recording, apart from the pictures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Recording {
-    /// Images in the order of time.
+    /// The images, in the order of time.
     pub images: Vec<ImageEntry>,
-    /// What the sensors read around each of them.
+    /// The sensor readings around each image.
     pub readings: Vec<Reading>,
-    /// Images of the card that could not be used.
+    /// The images of the card that could not be used.
     pub dropped: Vec<DroppedImage>,
-    /// What was wrong with the card, and notes.
+    /// Problems of the card, and notes.
     pub problems: Vec<Problem>,
-    /// SHA-256 of the card's files.
+    /// SHA-256 of the card's files, by name.
     pub inputs_sha256: BTreeMap<String, String>,
-    /// Camera pitch minus sensor pitch as the device profile declares it.
+    /// Camera pitch minus sensor pitch, as the device profile declares it.
     pub mount_pitch_deg: f64,
 }
 
 impl Recording {
-    /// Whether all files of the card could be read to their ends.
+    /// Whether every file of the card could be read to its end.
     pub fn is_whole(&self) -> bool {
         !self.inputs_sha256.values().any(|hash| hash == ingest::UNREADABLE)
     }
@@ -46,7 +49,7 @@ pub(crate) fn read(study: &Study, mcap: &Path, name: &str) -> Result<Recording, 
     let sensed = signals::at_images(&mut reader, &times, &settings).map_err(refuse)?;
     let mut problems = metadata.problems.clone();
     problems.extend(sensed.calibration.and_then(|calibration| calibration_note(study, name, &calibration)));
-    // A survey has no pictures; the lag is a note, by which nothing is lost.
+    // A survey has no pictures; the lag is only a note, so nothing is lost without it.
     if study.spec.time.estimate_lag && !metadata.is_survey() {
         let estimate = lag::estimate(&mut reader, &images).map_err(refuse)?;
         problems.push(lag::note(name, &estimate, lag_s));
@@ -61,21 +64,18 @@ pub(crate) fn read(study: &Study, mcap: &Path, name: &str) -> Result<Recording, 
     })
 }
 
-/// The MCAP file in the work folder is not what was written there.
-pub(crate) const BAD_MCAP: &str = "bad_mcap";
-
 pub(super) fn bad_mcap(session: &str, error: &ingest::ReadError) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Signals,
-        code: BAD_MCAP.to_owned(),
+        code: ProblemCode::BadMcap,
         place: format!("mcap/{session}.mcap"),
         fact: error.to_string(),
         remedy: "run again with --force to ingest the card anew".to_owned(),
     }
 }
 
-/// Logs the facts; a note where the study asked for the calibration to be applied.
+/// Logs the gravity calibration, and returns a note where the study asks for it to be applied.
 fn calibration_note(study: &Study, name: &str, calibration: &GravityCalibration) -> Option<Problem> {
     let verdict = calibration.verdict.code();
     tracing::info!(session = name, verdict, "gravity calibration: {calibration}");
@@ -84,17 +84,17 @@ fn calibration_note(study: &Study, name: &str, calibration: &GravityCalibration)
     }
     let (code, fact, remedy) = if calibration.accepted().is_some() {
         let remedy = "none needed; gravity_calibration = \"report\" leaves samples as they are";
-        ("gravity_calibration_applied", calibration.to_string(), remedy)
+        (ProblemCode::GravityCalibrationApplied, calibration.to_string(), remedy)
     } else {
         let fact = format!("{verdict}: {calibration}; {}", calibration.verdict.expected());
         let remedy = "samples were used as recorded; before or after wearing, lay the device still for 20 s on each side \
                       and at slants between (docs/signals.md)";
-        ("gravity_calibration_refused", fact, remedy)
+        (ProblemCode::GravityCalibrationRefused, fact, remedy)
     };
     Some(Problem {
         severity: Severity::Note,
         stage: Stage::Signals,
-        code: code.to_owned(),
+        code,
         place: format!("cards/{name}"),
         fact,
         remedy: remedy.to_owned(),

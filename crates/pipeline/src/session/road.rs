@@ -1,9 +1,9 @@
-//! The road of one session: card -> MCAP -> signals -> marks -> sizes -> rows.
+//! The road of one session: calls the steps in their order, and collects rows, problems and counts.
 
 use std::path::{Path, PathBuf};
 
 use ingest::IngestError;
-use model::{FrameReason, Problem, ResultRow, SessionStatus, Severity, Stage};
+use model::{FrameReason, Problem, ProblemCode, ResultRow, SessionStatus, Severity, Stage};
 
 use super::auto::AutoMarks;
 use super::bench::bench_session;
@@ -23,24 +23,24 @@ use crate::reporter::Reporter;
 use crate::stop::Stop;
 use crate::study::{SessionDir, Study};
 
-/// How [`run_session`] treats a session.
+/// Settings of [`run_session`].
 #[derive(Debug, Clone)]
 pub(crate) struct SessionOptions {
-    /// Folder for MCAP files.
+    /// The folder for MCAP files.
     pub mcap_dir: PathBuf,
-    /// Whether to survey cards only: MCAP files then have no pictures, and belong into a temporary folder.
+    /// Whether to survey cards only: their MCAP files have no pictures, and belong in a temporary folder.
     pub survey: bool,
-    /// Whether the sessions are those of a bench: people's marks are then read whatever the study says of marks, and the
-    /// output holds the sizes that are known.
+    /// Whether the sessions are those of a bench: people's marks are then read whatever `[marks]` says, and the output holds
+    /// the known sizes.
     pub is_bench: bool,
-    /// Program and version, for provenance.
+    /// The program and its version, for provenance.
     pub program: String,
-    /// A wish to stop.
+    /// The wish to stop, from a signal or from inside.
     pub stop: Stop,
 }
 
-/// Goes the road of one session without keeping anything but its MCAP file. Whatever goes wrong is in the status; what could be used is
-/// in the rows.
+/// Takes one session from its card to rows without keeping anything but its MCAP file. Whatever goes wrong is in the status;
+/// the rows hold what could be used.
 pub(crate) fn run_session(
     study: &Study,
     dir: &SessionDir,
@@ -67,7 +67,7 @@ fn run_without_state(
     Ok(measuring.measure(recording, AutoMarks::default()))
 }
 
-/// Ingests or surveys a card; gives the MCAP file.
+/// Ingests or surveys a card, and returns the path of the MCAP file.
 pub(crate) fn ingest_without_state(
     prepared: &Prepared,
     options: &SessionOptions,
@@ -85,7 +85,7 @@ pub(crate) fn ingest_without_state(
     ingested.map(|_| mcap).map_err(|error| ingest_problem(&source.session, &error))
 }
 
-/// What a session gives of which nothing could be used.
+/// The output of a session of which nothing could be used: its problem, and its images in the ledger.
 pub(crate) fn failed(study: &Study, dir: &SessionDir, problem: Problem) -> SessionOutput {
     let frames = ledger_of_failed(study, dir);
     let (session, images, problems) = (dir.name.clone(), frames.len(), vec![problem]);
@@ -93,7 +93,7 @@ pub(crate) fn failed(study: &Study, dir: &SessionDir, problem: Problem) -> Sessi
     SessionOutput { status, frames, ..SessionOutput::default() }
 }
 
-/// Takes out what depends on where things lie, and logs the problems.
+/// Removes paths of this machine from the problems of an output, and logs them.
 pub(crate) fn finish_status(output: &mut SessionOutput, study: &Study, mcap_dir: &Path) {
     for problem in &mut output.status.problems {
         problem.fact = without_host(&problem.fact, study, mcap_dir);
@@ -101,18 +101,18 @@ pub(crate) fn finish_status(output: &mut SessionOutput, study: &Study, mcap_dir:
     log_problems(&output.status);
 }
 
-/// Losses as warnings; notes are told in the report, and logged for those who ask for more.
+/// Logs losses as warnings. Notes are in the report, and are logged for those who ask for more.
 pub(crate) fn log_problems(status: &SessionStatus) {
     let session = &status.session;
     for Problem { severity, stage, code, place, fact, remedy } in &status.problems {
         match severity {
-            Severity::Loss => tracing::warn!(session, %stage, code, place, remedy, "{fact}"),
-            Severity::Note => tracing::info!(session, %stage, code, place, remedy, "{fact}"),
+            Severity::Loss => tracing::warn!(session, %stage, code = code.code(), place, remedy, "{fact}"),
+            Severity::Note => tracing::info!(session, %stage, code = code.code(), place, remedy, "{fact}"),
         }
     }
 }
 
-/// From a recording, and what was found in its pictures, to rows.
+/// The steps from a recording and the rims found in its pictures to rows.
 pub(crate) struct Measuring<'a> {
     pub study: &'a Study,
     pub dir: &'a SessionDir,
@@ -151,8 +151,7 @@ impl Measuring<'_> {
         output
     }
 
-    /// The marks of people and those that the program found, as the study asks for them. A bench is measured by what people
-    /// marked.
+    /// The marks of people and of the program, as the study asks for them. A bench is measured by the marks of people.
     fn marks(&self, session: &Session<'_>, auto: AutoMarks, output: &mut SessionOutput) -> SessionMarks {
         let problems = &mut output.status.problems;
         let mut marks = SessionMarks::new(self.study, self.dir);
@@ -177,25 +176,25 @@ fn count(output: &mut SessionOutput, session: &Session<'_>) {
     status.sizes = output.results.iter().filter(|row| row.predicted_mm.is_some()).count();
 }
 
-/// An ingest that failed, as a session's problem.
+/// The problem of a session whose ingest failed.
 pub(crate) fn ingest_problem(session: &str, error: &IngestError) -> Problem {
     Problem {
         severity: Severity::Loss,
         stage: Stage::Ingest,
-        code: error.code().to_owned(),
+        code: error.code(),
         place: format!("cards/{session}"),
         fact: error.to_string(),
         remedy: error.remedy().to_owned(),
     }
 }
 
-/// A card none of whose images has a pose: a dead sensor, or a profile that does not fit.
+/// The problem of a card none of whose images has a pose: a dead sensor, or a profile that does not fit.
 fn no_pose(session: &Session<'_>) -> Option<Problem> {
     let reason = session.frames.first()?.signals.reason;
     session.frames.iter().all(|frame| frame.signals.pose.is_none()).then(|| Problem {
         severity: Severity::Loss,
         stage: Stage::Signals,
-        code: "no_image_with_pose".to_owned(),
+        code: ProblemCode::NoImageWithPose,
         place: format!("cards/{}", session.dir.name),
         fact: format!("none of its {} images has a pose; of the first: {}", session.frames.len(), reason.meaning()),
         remedy: "check the sensors' files, and axes, scales and mount offset of the device profile".to_owned(),

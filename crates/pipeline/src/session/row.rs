@@ -1,11 +1,11 @@
-//! Rows of the results, level frame.
+//! Rows of results.parquet of level frame.
 
 use model::results::RESULTS_SCHEMA_VERSION;
 use model::{Doubt, Estimate, FrameReason, Level, MeasureError, Method, Pose, Quantity, ResultRow, SizeSigma};
 
 use super::found::height_source;
 use super::marked::Marked;
-use crate::rims::HeightSource;
+use rims::HeightSource;
 
 /// The row of one size on one image.
 pub(super) fn frame_row(
@@ -80,11 +80,11 @@ fn flags(marked: &Marked<'_>, error: Option<&MeasureError>) -> String {
     flags.extend((!marked.marks.inside_picture(picture_px)).then_some("mark_outside_picture"));
     let is_common = height_source(marked) == Some(HeightSource::Common);
     flags.extend(is_common.then_some("rim_height_common"));
-    flags.extend(error.map(MeasureError::code));
+    flags.extend(error.map(|error| error.problem_code().code()));
     flags.join(",")
 }
 
-/// A row with this uncertainty and its parts.
+/// The row with this uncertainty and its parts.
 pub(super) fn with_sigma(row: ResultRow, sigma: &SizeSigma) -> ResultRow {
     ResultRow {
         sigma_mm: Some(sigma.total_mm),
@@ -99,12 +99,12 @@ pub(super) fn with_sigma(row: ResultRow, sigma: &SizeSigma) -> ResultRow {
     }
 }
 
-/// Codes of doubts, joined by commas.
+/// The codes of doubts, joined by commas.
 pub(super) fn doubt_codes(doubts: &[Doubt]) -> String {
     doubts.iter().map(|doubt| doubt.code()).collect::<Vec<_>>().join(",")
 }
 
-/// Signed error in per cent of the truth.
+/// The signed error in per cent of the truth.
 pub(super) fn error_pct(predicted_mm: Option<f64>, truth_mm: Option<f64>) -> Option<f64> {
     Some(100.0 * (predicted_mm? - truth_mm?) / truth_mm?)
 }

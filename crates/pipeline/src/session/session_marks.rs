@@ -1,36 +1,41 @@
-//! The marks of a session: LabelMe files of every rater, matched with its images and the study's objects.
+//! Step *marks*: collects the marks of a session by image and rater.
+//!
+//! - Input: the LabelMe files of every rater, the rims that the program found, the objects of objects.csv and the names of
+//!   names.csv.
+//! - Output: [`SessionMarks`], in which every object is known, and a problem for each mark that cannot be used.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use model::{FrameReason, ObjectMarks, Problem, Severity, Stage};
+use model::{FrameReason, ObjectMarks, Problem, ProblemCode, Severity, Stage};
 
 use super::frames::Session;
 use super::naming::Naming;
 use super::problems::LINK_FACT;
 use crate::inputs::sha256_of_bytes;
 use crate::labelme::{self, AutoRim, MarksError};
-use crate::rims::Found;
 use crate::study::{AUTO, Object, SessionDir, Study, marks_in, stem_of};
+use rims::Found;
 
-/// Marks by image (file on the card), then rater.
+/// The marks of a session by image (file on the card), then by rater.
 #[derive(Debug)]
 pub(super) struct SessionMarks {
     by_image: BTreeMap<String, BTreeMap<String, Vec<MarkedObject>>>,
     naming: Naming,
 }
 
-/// The marks of one object on one image, and what is known of it.
+/// The marks of one object on one image, with what is known of the object.
 #[derive(Debug)]
 pub(super) struct MarkedObject {
     pub marks: ObjectMarks,
     pub object: Object,
-    /// Where the program found it itself.
+    /// The found rim, where the program made the marks.
     pub found: Option<Found>,
 }
 
 impl MarkedObject {
-    /// An object of objects.csv, or one that was found; else none.
+    /// The marks with their object: the one of objects.csv, else the container that a found rim looks like. The marks come
+    /// back as the error where neither is there.
     fn new(study: &Study, marks: ObjectMarks, found: Option<Found>) -> Result<Self, ObjectMarks> {
         let unlisted = || Some(Object { container: found?.container(), truth_mm: BTreeMap::new() });
         match study.objects.get(&marks.object).cloned().or_else(unlisted) {
@@ -41,13 +46,13 @@ impl MarkedObject {
 }
 
 impl SessionMarks {
-    /// Without marks; with the names that the study gives to what is found in the session.
+    /// No marks yet, and the names that names.csv gives to found containers of the session.
     pub(super) fn new(study: &Study, dir: &SessionDir) -> Self {
         Self { by_image: BTreeMap::new(), naming: Naming::for_session(study, dir) }
     }
 
-    /// Reads the marks of all raters. What cannot be used becomes a problem; the rest is kept. The hash of every file that
-    /// could be read is added to `inputs_sha256`.
+    /// Reads the files of all raters. What cannot be used becomes a problem; the rest is kept. The SHA-256 of every file
+    /// that could be read is added to `inputs_sha256`.
     pub(super) fn read(
         &mut self,
         session: &Session<'_>,
@@ -71,7 +76,7 @@ impl SessionMarks {
         }
     }
 
-    /// The image that a file belongs to, and its marks by object.
+    /// The image that a file belongs to, and the marks in the file by object.
     fn read_file(
         &mut self,
         session: &Session<'_>,
@@ -98,7 +103,7 @@ impl SessionMarks {
         Ok((image.to_owned(), known_objects(session, named, &place, problems)))
     }
 
-    /// Adds what the program found, as rater [`AUTO`]. A file of that rater comes first.
+    /// Adds the found rims as marks of rater [`AUTO`]. On an image for which that rater has a file, the file counts.
     pub(super) fn add_found(
         &mut self,
         session: &Session<'_>,
@@ -118,12 +123,12 @@ impl SessionMarks {
         }
     }
 
-    /// Lines of names.csv that named nothing; `searched`: whether rims were looked for.
+    /// A problem for each line of names.csv that named nothing; `searched` says whether rims were looked for.
     pub(super) fn unused_names(&self, session: &Session<'_>, searched: bool) -> Vec<Problem> {
         self.naming.unused(&session.dir.name, searched)
     }
 
-    /// Marks on one image, by rater.
+    /// The marks on one image, by rater.
     pub(super) fn of_image(&self, file: &str) -> impl Iterator<Item = (&String, &Vec<MarkedObject>)> {
         self.by_image.get(file).into_iter().flatten()
     }
@@ -131,13 +136,13 @@ impl SessionMarks {
 
 fn twice(place: String) -> Problem {
     let fact = "a second file of this rater for the same image; it takes the place of the first".to_owned();
-    problem("marks_twice", place, fact, "keep one of them")
+    problem(ProblemCode::MarksTwice, place, fact, "keep one of them")
 }
 
 fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> Vec<PathBuf> {
     if !session.study.holds(dir) {
         let remedy = "copy the marks into the study";
-        problems.push(problem("link_out_of_study", session.study.relative(dir), LINK_FACT.to_owned(), remedy));
+        problems.push(problem(ProblemCode::LinkOutOfStudy, session.study.relative(dir), LINK_FACT.to_owned(), remedy));
         return Vec::new();
     }
     match marks_in(dir) {
@@ -145,7 +150,7 @@ fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> V
         Err(error) => {
             let fact = format!("cannot list the folder: {error}");
             problems.push(problem(
-                labelme::MARKS_UNREADABLE,
+                ProblemCode::MarksUnreadable,
                 session.study.relative(dir),
                 fact,
                 "check its permissions",
@@ -155,7 +160,7 @@ fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> V
     }
 }
 
-/// An image of the card, used or dropped.
+/// An image of the card; with the reason, where it was dropped.
 struct Image<'a> {
     file: &'a str,
     dropped: Option<FrameReason>,
@@ -173,25 +178,25 @@ fn images_by_stem<'a>(session: &'a Session<'_>) -> ImagesByStem<'a> {
     images
 }
 
-/// The one image of the card that has this name, if it can be used.
+/// The one image of the card with this name; an error where there is none, several, or it was dropped.
 fn image_of<'a>(images: &ImagesByStem<'a>, stem: &str, place: &str) -> Result<&'a str, Problem> {
     let refuse = |code, fact, remedy| Err(problem(code, place.to_owned(), fact, remedy));
     match images.get(stem).map(Vec::as_slice) {
         None | Some([]) => refuse(
-            "marks_without_image",
+            ProblemCode::MarksWithoutImage,
             format!("the card has no image named {stem}"),
             "give the file the image's name, or remove it",
         ),
         Some([Image { file, dropped: None }]) => Ok(file),
         Some([Image { dropped: Some(reason), .. }]) => refuse(
-            "marked_image_dropped",
+            ProblemCode::MarkedImageDropped,
             format!("its image was dropped: {}", reason.meaning()),
             "see the problem of the image itself",
         ),
         Some(several) => {
             let files: Vec<_> = several.iter().map(|image| image.file).collect();
             refuse(
-                "ambiguous_marks",
+                ProblemCode::AmbiguousMarks,
                 format!("several images have this name: {}", files.join(", ")),
                 "rename all but one in the copy of the card, and its marks",
             )
@@ -216,18 +221,11 @@ fn known_objects(
         let names: Vec<_> = session.study.objects.keys().map(String::as_str).collect();
         let fact = format!("object '{}' is not in objects.csv, which has: {}", marks.object, names.join(", "));
         let remedy = "add it to objects.csv, or correct the label in LabelMe";
-        problems.push(problem("unknown_object", place.to_owned(), fact, remedy));
+        problems.push(problem(ProblemCode::UnknownObject, place.to_owned(), fact, remedy));
     }
     known
 }
 
-fn problem(code: &str, place: String, fact: String, remedy: &str) -> Problem {
-    Problem {
-        severity: Severity::Loss,
-        stage: Stage::Marks,
-        code: code.to_owned(),
-        place,
-        fact,
-        remedy: remedy.to_owned(),
-    }
+fn problem(code: ProblemCode, place: String, fact: String, remedy: &str) -> Problem {
+    Problem { severity: Severity::Loss, stage: Stage::Marks, code, place, fact, remedy: remedy.to_owned() }
 }

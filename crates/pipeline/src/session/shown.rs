@@ -1,5 +1,5 @@
-//! What was measured in each picture, for those who show pictures: marks as they lie in the recorded ones, and the view that
-//! sizes were measured by. It is kept with the sizes, so that it fits them whatever becomes of marks and settings.
+//! The marks and the view behind the sizes of each picture, for commands that show pictures. They are kept with the sizes,
+//! so that they fit them whatever becomes of marks and settings. Marks are given as they lie in the recorded picture.
 
 use std::collections::BTreeMap;
 
@@ -13,9 +13,9 @@ use crate::calibration::corrected_view;
 /// The pictures of a session in which something was measured.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Shown {
-    /// Camera of the recorded pictures, with what a calibration has taught; none where nothing is shown.
+    /// The camera of the recorded pictures after calibration; none where nothing is shown.
     pub camera: Option<CameraSpec>,
-    /// By image (file on the card).
+    /// The pictures by image (file on the card).
     pub images: BTreeMap<String, ShownImage>,
 }
 
@@ -25,11 +25,11 @@ pub(crate) struct ShownImage {
     pitch_rad: f64,
     roll_rad: f64,
     range_mm: f64,
-    /// What was marked in it.
+    /// The objects that were marked in it.
     pub objects: Vec<ShownObject>,
 }
 
-/// What one rater marked of one object in one picture.
+/// The marks of one rater on one object in one picture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ShownObject {
     pub object: String,
@@ -37,26 +37,26 @@ pub(crate) struct ShownObject {
     pub marks: Vec<ShownMark>,
 }
 
-/// A line or a curve.
+/// A marked line or curve.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ShownMark {
-    /// What a line's length is; none of a curve.
+    /// The quantity that the length of a line is; none for a curve.
     pub quantity: Option<Quantity>,
-    /// The curve that it is, or that a line's ends lie on (of a height: its first).
+    /// The feature that a curve follows, or on which the ends of a line lie (for a height, its first end).
     pub feature: Feature,
-    /// Whether its last point joins its first.
+    /// Whether the last point is joined to the first.
     pub closed: bool,
-    /// Its points, in pixels of the recorded picture.
+    /// The points, in pixels of the recorded picture.
     pub points_px: Vec<[f64; 2]>,
 }
 
-/// A curve is shown by so many points at most: the chords between them are nowhere far from it.
+/// A curve is shown by at most this many points; the chords between them are nowhere far from it.
 const MOST_POINTS: usize = 72;
-/// Points of a rim that was found are this much further apart than most where something hides it, in medians.
+/// Where something hides a found rim, its points are more than this many median gaps apart.
 const HIDDEN: f64 = 4.0;
 
 impl Shown {
-    /// `camera`: of the recorded pictures.
+    /// The marked pictures of a session; `camera` is that of the recorded pictures.
     pub(super) fn from_marked(camera: &Camera, marked: &[Marked<'_>]) -> Self {
         let mut shown = Self::default();
         for marked in marked {
@@ -83,7 +83,7 @@ impl Shown {
         shown
     }
 
-    /// The view that sizes of a picture were measured by with method `ray`, for the recorded picture.
+    /// The view with which method `ray` measured a picture, for the recorded picture.
     pub fn view(&self, image: &ShownImage) -> Option<View> {
         let camera = self.camera.as_ref()?.camera().ok()?;
         Some(View::new(camera, Pose::new(image.pitch_rad, image.roll_rad, image.range_mm).ok()?))
@@ -95,13 +95,13 @@ fn view_of(camera: &Camera, marked: &Marked<'_>) -> Option<View> {
     corrected_view(marked.session.study.calibration.as_ref(), Method::Ray, view)
 }
 
-/// Where a point of a marked picture is in the recorded one.
+/// The point of the recorded picture that shows the same as a point of the marked one.
 fn recorded(camera: &Camera, marks_camera: &Camera, point: Point2<f64>) -> Option<Point2<f64>> {
     if camera == marks_camera { Some(point) } else { camera.pixel_of(&marks_camera.ray_through(point).ok()?).ok() }
 }
 
 impl ShownMark {
-    /// None where the recorded picture does not show it.
+    /// The mark in the recorded picture; none where that picture does not show it.
     fn from_mark(mark: &Mark, is_found: bool, recorded: impl Fn(Point2<f64>) -> Option<Point2<f64>>) -> Option<Self> {
         let points = mark.points_px();
         let kept = points.iter().step_by(points.len().div_ceil(MOST_POINTS).max(1));
@@ -116,7 +116,8 @@ impl ShownMark {
     }
 }
 
-/// Whether the points of a rim that was found go all the way round; where they do not, they now begin after the widest gap.
+/// Whether the points of a found rim go all the way round. Where they do not, they are turned so as to begin after the
+/// widest gap.
 fn is_whole(points_px: &mut [[f64; 2]]) -> bool {
     let count = points_px.len();
     let gap = |i: usize| -> f64 {

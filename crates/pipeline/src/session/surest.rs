@@ -1,4 +1,4 @@
-//! Which selected images of a session are the surest ones, whether they are marked or not.
+//! The selected images of a session in the order of their uncertainty, whether they are marked or not.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -9,14 +9,14 @@ use nalgebra::{Point2, Point3};
 use super::frames::{Frame, Session, inputs_of, penalty_of};
 use crate::calibration::corrected_view;
 
-/// Predicted uncertainty and rank of the selected images of a session, by their number.
+/// The predicted uncertainty and the rank of each selected image, by its number in the session.
 pub(super) struct Surest {
     by_number: BTreeMap<usize, (f64, u32)>,
 }
 
-/// Radius of the plate that images are judged by.
+/// The radius of the plate by which images are judged.
 const PLATE_RADIUS_MM: f64 = 100.0;
-/// Points along its rim.
+/// The number of points along its rim.
 const AROUND: u32 = 12;
 
 impl Surest {
@@ -40,7 +40,8 @@ impl Surest {
     }
 }
 
-/// None where the picture could not show such a plate, not even beyond its borders.
+/// The standard uncertainty, in mm, that the diameter of a plate ahead would have in this image, with the image's doubts;
+/// none where the picture could not show such a plate, not even beyond its borders.
 fn plate_sigma_mm(session: &Session<'_>, frame: &Frame) -> Option<f64> {
     let view = View::new(session.marks_camera, frame.signals.pose_for(Method::Ray)?);
     let view = corrected_view(session.study.calibration.as_ref(), Method::Ray, view)?;

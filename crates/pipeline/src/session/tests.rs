@@ -11,7 +11,7 @@ use crate::signals::{GravityCalibrate, RangeCone};
 use crate::stop::Stop;
 use crate::study::{Study, StudySpec};
 
-/// Without losses.
+/// The output of a session that must not have losses.
 fn run(adjust: impl FnOnce(&mut StudySpec)) -> SessionOutput {
     let output = run_with(adjust);
     assert!(!output.status.has_losses(), "{:?}", output.status.problems);
@@ -35,7 +35,7 @@ fn run_with(adjust: impl FnOnce(&mut StudySpec)) -> SessionOutput {
 
 fn codes(output: &SessionOutput) -> Vec<&str> {
     assert!(output.status.problems.iter().all(|problem| problem.severity == Severity::Note));
-    output.status.problems.iter().map(|problem| problem.code.as_str()).collect()
+    output.status.problems.iter().map(|problem| problem.code.code()).collect()
 }
 
 #[test]

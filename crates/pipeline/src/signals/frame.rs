@@ -1,4 +1,5 @@
-//! From gravity and range to the pose of one image, and the reason that the ledger gives.
+//! The pose of one image from gravity and range, and the reason that the ledger gives: step *select* of a session, for one
+//! image.
 
 use model::{FrameFlag, FrameReason, Pose};
 use nalgebra::{Rotation3, Vector3};
@@ -8,7 +9,7 @@ use super::gravity::Gravity;
 use super::range::{Range, cone};
 use super::settings::{PoseSettings, RangeCone};
 
-/// What the sensors say about one image; none when its time exists twice.
+/// The signals of one image; `sensed` is none when its time exists twice.
 pub(super) fn signals(sensed: Option<(Option<Gravity>, Range)>, settings: &PoseSettings) -> FrameSignals {
     match sensed {
         Some((gravity, range)) => of_readings(gravity, range, settings),
@@ -63,7 +64,7 @@ fn of_readings(gravity: Option<Gravity>, range: Range, settings: &PoseSettings) 
     signals
 }
 
-/// The pose with the distance along the axis that the range sensor's cone on a tilted table stands for.
+/// The pose with the distance along the axis for which the range sensor's cone on a tilted table gives this reading.
 fn without_cone(pose: Pose) -> Option<Pose> {
     let axis_range_mm = pose.range_mm() / cone::reading_over_axis(pose.pitch_rad())?;
     Pose::new(pose.pitch_rad(), pose.roll_rad(), axis_range_mm).ok()
@@ -95,8 +96,8 @@ fn reason(signals: &FrameSignals, settings: &PoseSettings) -> FrameReason {
     FrameReason::Selected
 }
 
-/// Down in the camera frame, from the specific force at rest in the device frame (it points up), with the camera turned
-/// down by the mount offset about the axis x that both share.
+/// The direction down in the camera frame. The specific force at rest, in the device frame, points up; the camera is turned
+/// down by the mount offset about the axis x that both frames share.
 pub(crate) fn down_in_camera(specific_force_g: &Vector3<f64>, mount_pitch_rad: f64) -> Vector3<f64> {
     Rotation3::from_axis_angle(&Vector3::x_axis(), mount_pitch_rad) * -specific_force_g
 }
@@ -108,7 +109,7 @@ mod tests {
 
     use super::*;
 
-    /// What an accelerometer at rest reads, when its forward axis points `pitch` below the horizon.
+    /// The specific force that an accelerometer at rest reads when its forward axis points `pitch` below the horizon.
     fn at_rest(sensor_pitch_deg: f64, roll_deg: f64) -> Vector3<f64> {
         let pose = Pose::new(sensor_pitch_deg.to_radians(), roll_deg.to_radians(), 500.0).unwrap();
         -pose.down_in_camera()

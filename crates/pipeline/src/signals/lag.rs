@@ -1,7 +1,7 @@
-//! How late the images' clock is against the sensors', from motion that both saw.
+//! The lag of the images' clock against the sensors', from motion that both saw.
 //!
-//! Between two pictures the head turns, and the picture changes. The rotation of gravity between the same two moments
-//! changes with it, if the moments are the same: the lag is where the two agree best.
+//! Between two pictures the head turns, and the picture changes. The rotation of gravity between the same two moments agrees
+//! with that change if the moments really are the same. The lag is where the two agree best.
 
 mod picture;
 mod rank;
@@ -20,26 +20,26 @@ use super::window::Windows;
 
 /// Lags are looked for from minus this to plus this.
 const REACH_S: f64 = 10.0;
-/// Step of the grid.
+/// The step of the grid of lags.
 const STEP_S: f64 = 0.1;
-/// Points of the grid.
+/// The number of points of the grid.
 pub(crate) const LAGS: usize = 201;
 /// Gravity at a moment is the mean over this many seconds on both sides of it.
 const SMOOTH_S: f64 = 0.25;
-/// With fewer samples it is not known.
+/// With fewer samples the direction is not known.
 const MIN_SAMPLES: usize = 5;
 
-/// Lag of the point `i` of the grid.
+/// The lag of point `i` of the grid.
 #[expect(clippy::cast_precision_loss, reason = "an index of the grid")]
 pub(crate) fn lag_s(i: usize) -> f64 {
     i as f64 * STEP_S - REACH_S
 }
 
-/// Direction of gravity at an image's time plus each lag of the grid, where it is known.
+/// The direction of gravity at an image's time plus each lag of the grid, where it is known.
 pub(crate) type Directions = Vec<Option<Vector3<f64>>>;
 
-/// Directions of gravity around each of `image_times`, which must be in order. One pass over the samples; memory grows with
-/// the number of images given (5 kB each).
+/// The directions of gravity around each of `image_times`, which must be in order. One pass over the samples; memory grows
+/// with the number of images given (5 kB each).
 ///
 /// # Errors
 /// [`ReadError`] when the session's samples cannot be read.

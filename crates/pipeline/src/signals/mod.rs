@@ -1,6 +1,10 @@
-//! From samples to the pose of the camera at each image (docs/signals.md).
+//! Step *signals*: turns samples into the pose of the camera at each image (docs/signals.md).
 //!
-//! The samples of a session are streamed; only those near images that are still open are kept.
+//! - Input: the stream of acceleration and range samples of a session, and the times of its images.
+//! - Output: a [`Reading`] for each image, which knows no threshold; [`Reading::judge`] makes a pose and a choice of it, by
+//!   the [`PoseSettings`].
+//!
+//! The samples of a session are streamed. Only those near images that are still open are kept.
 
 mod calibration;
 mod frame;
@@ -27,42 +31,42 @@ use range::Range;
 pub use settings::{GravityCalibrate, PoseSettings, RangeCone, ReadingSettings};
 use window::Windows;
 
-/// What the sensors say about one image.
+/// The sensors' account of one image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameSignals {
     /// The first reason that applies.
     pub reason: FrameReason,
-    /// Length of gravity.
+    /// The length of gravity, in 1/1000 of standard gravity.
     pub gravity_mg: Option<f64>,
-    /// RMS of the acceleration around gravity.
+    /// The RMS of the acceleration around gravity.
     pub stillness_mg: Option<f64>,
     /// Pitch and roll of the camera.
     pub pitch_roll_rad: Option<(f64, f64)>,
-    /// Median range.
+    /// The median range.
     pub range_mm: Option<f64>,
-    /// Robust SD of the range readings.
+    /// The robust SD of the range readings.
     pub range_spread_mm: Option<f64>,
-    /// Valid range records in the window.
+    /// The number of valid range records in the window.
     pub range_samples: u32,
-    /// Readings of the sensor behind them.
+    /// The number of readings of the sensor behind them.
     pub range_distinct: u32,
-    /// Pose with the range as it was read; present exactly when [`FrameReason::has_pose`].
+    /// The pose with the range as it was read; present exactly when [`FrameReason::has_pose`].
     pub pose: Option<Pose>,
-    /// Pose with the range corrected for the sensor's cone, where that was asked for and can be done.
+    /// The pose with the range corrected for the sensor's cone, where that was asked for and can be done.
     pub cone_pose: Option<Pose>,
-    /// What else to know.
+    /// What else is worth knowing about it.
     pub flags: Vec<FrameFlag>,
 }
 
 impl FrameSignals {
-    /// The pose that `method` works with: the paper's takes the range as it was read.
+    /// The pose that `method` works with. The paper's method takes the range as it was read.
     #[must_use]
     pub fn pose_for(&self, method: Method) -> Option<Pose> {
         if method == Method::Paper { self.pose } else { self.cone_pose.or(self.pose) }
     }
 }
 
-/// What the sensors read around one image, before any threshold.
+/// The sensors' readings around one image, before any threshold.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
     /// None when the image's time exists twice.
@@ -71,19 +75,19 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The pose, and the reason that the ledger gives.
+    /// The pose of the image, and the reason that the ledger gives.
     #[must_use]
     pub fn judge(&self, settings: &PoseSettings) -> FrameSignals {
         frame::signals(self.sensed, settings)
     }
 }
 
-/// What the sensors of a session read.
+/// The sensors' readings at all images of a session.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SessionReadings {
-    /// Around each image, in their order.
+    /// The reading at each image, in their order.
     pub readings: Vec<Reading>,
-    /// About the accelerometer, unless that was not asked for.
+    /// The gravity calibration of the accelerometer, unless it was switched off.
     pub calibration: Option<GravityCalibration>,
 }
 
@@ -103,7 +107,7 @@ pub fn at_images(
     evaluate(|each| reader.for_each_sample(each), &timeline, image_times, settings)
 }
 
-/// [`at_images`] over any stream; `stream` calls its argument with every sample, each time that it is called.
+/// [`at_images`] over any stream. `stream` calls its argument with every sample, each time that it is called.
 fn evaluate<E>(
     mut stream: impl FnMut(&mut dyn FnMut(Sample)) -> Result<(), E>,
     timeline: &Timeline,

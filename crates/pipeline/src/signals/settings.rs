@@ -1,8 +1,9 @@
-//! Which of the study's settings matter to which step: what is kept between runs is keyed by them.
+//! The settings of each step of the signals. They are apart because the readings are kept between runs, keyed by the
+//! settings that made them, while poses are judged anew in each run.
 
 use serde::{Deserialize, Serialize};
 
-/// What the range sensor's reading is taken for.
+/// The distance that the range sensor's reading is taken for.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RangeCone {
@@ -13,31 +14,31 @@ pub enum RangeCone {
     TiltedPlane,
 }
 
-/// What to do with a gravity calibration from still segments (docs/signals.md).
+/// The use that is made of a gravity calibration from still segments (docs/signals.md).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GravityCalibrate {
-    /// Nothing.
+    /// No calibration is made.
     Off,
-    /// Work it out and log it; change nothing.
+    /// The calibration is worked out and logged, and changes nothing.
     #[default]
     Report,
-    /// Use it where it is accepted; a note says whether it was.
+    /// The calibration is used where it is accepted; a note says whether it was.
     Apply,
 }
 
-/// From samples to readings. A change means that the samples are read again.
+/// The settings by which samples become readings. After a change the samples are read again.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReadingSettings {
-    /// -3 dB frequency of the low-pass that separates gravity from motion.
+    /// The -3 dB frequency of the low-pass that separates gravity from motion.
     pub gravity_cutoff_hz: f64,
-    /// What to do about offsets and scales of the accelerometer.
+    /// The correction of offsets and scales of the accelerometer.
     pub gravity_calibration: GravityCalibrate,
-    /// Width of the window around an image's time for the median range.
+    /// The width of the window around an image's time for the median range.
     pub range_window_s: f64,
-    /// Shorter readings are nonsense.
+    /// Shorter readings are no ranges.
     pub range_min_mm: f64,
-    /// Longer readings are beyond the sensor.
+    /// Longer readings are beyond the sensor's reach.
     pub range_max_mm: f64,
     /// The range sensor's own update period.
     pub range_update_s: f64,
@@ -56,21 +57,22 @@ impl Default for ReadingSettings {
     }
 }
 
-/// From readings to a pose and a choice. A change means that no sample is read.
+/// The settings by which readings become a pose and a choice. After a change no sample needs to be read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoseSettings {
-    /// Largest departure of gravity's length from 1 g.
+    /// The largest departure of gravity's length from 1 g.
     pub gravity_tolerance_mg: f64,
-    /// RMS motion above which an image is not still.
+    /// The RMS motion above which an image is not still.
     pub stillness_max_mg: f64,
     /// Whether the range is corrected for the sensor's cone.
     pub range_cone: RangeCone,
-    /// Pitch of the camera that images are selected around. Degrees, as in study.toml and in the column `pitch_deg` of the
-    /// ledger, so that whoever compares those two numbers comes to the same decision about an image at the very border.
+    /// The pitch of the camera around which images are selected. It is in degrees, as in study.toml and in the column
+    /// `pitch_deg` of the ledger: whoever compares these two numbers comes to the same decision, also for an image at the
+    /// very border.
     pub target_pitch_deg: f64,
-    /// Half width of the window around it; its ends belong to it.
+    /// The half width of the window around that pitch; its ends belong to it.
     pub pitch_tolerance_deg: f64,
-    /// Camera pitch = sensor pitch + this.
+    /// The mount offset: camera pitch = sensor pitch + this.
     pub mount_pitch_rad: f64,
 }
 

@@ -7,9 +7,9 @@ pub(super) struct Windows<'a, T, R, F: Fn(UtcNs, &[(UtcNs, T)]) -> R> {
     image_times: &'a [UtcNs],
     half_s: f64,
     evaluate: F,
-    /// Samples that an open image may still need, in the order of the stream.
+    /// The samples that an open image may still need, in the order of the stream.
     kept: Vec<(UtcNs, T)>,
-    /// Samples at the front of `kept` that no open image needs; removed when they are many.
+    /// The number of samples at the front of `kept` that no open image needs; they are removed when they are many.
     stale: usize,
     results: Vec<R>,
 }
@@ -18,7 +18,7 @@ pub(super) struct Windows<'a, T, R, F: Fn(UtcNs, &[(UtcNs, T)]) -> R> {
 const COMPACT_FROM: usize = 1024;
 
 impl<'a, T, R, F: Fn(UtcNs, &[(UtcNs, T)]) -> R> Windows<'a, T, R, F> {
-    /// `image_times` in order.
+    /// Windows around `image_times`, which must be in order.
     pub(super) fn new(image_times: &'a [UtcNs], half_s: f64, evaluate: F) -> Self {
         debug_assert!(image_times.is_sorted(), "images come in the order of their times");
         Self {
@@ -31,7 +31,7 @@ impl<'a, T, R, F: Fn(UtcNs, &[(UtcNs, T)]) -> R> Windows<'a, T, R, F> {
         }
     }
 
-    /// The next sample of the stream, which is in the order of time.
+    /// Takes the next sample of the stream, which must be in the order of time.
     pub(super) fn push(&mut self, time: UtcNs, value: T) {
         while let Some(open) = self.image_times.get(self.results.len())
             && time.seconds_since(*open) > self.half_s
@@ -44,7 +44,7 @@ impl<'a, T, R, F: Fn(UtcNs, &[(UtcNs, T)]) -> R> Windows<'a, T, R, F> {
         }
     }
 
-    /// What `evaluate` gave for each image, in their order.
+    /// The results of `evaluate` for the images, in their order.
     pub(super) fn finish(mut self) -> Vec<R> {
         while let Some(open) = self.image_times.get(self.results.len()) {
             self.close(*open);

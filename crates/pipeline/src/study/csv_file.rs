@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 
 use super::StudyError;
 
-/// Rows with their line numbers. Blanks around cells are dropped; the header names the columns, in any order.
+/// The rows of a file with their line numbers. Blanks around cells are dropped; the header names the columns, in any order.
 pub(super) fn read_rows<T: DeserializeOwned>(path: &Path) -> Result<Vec<(u64, T)>, StudyError> {
     let bytes = std::fs::read(path).map_err(|source| StudyError::Unreadable { path: path.to_owned(), source })?;
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(bytes.as_slice());
@@ -27,14 +27,14 @@ pub(super) fn read_rows<T: DeserializeOwned>(path: &Path) -> Result<Vec<(u64, T)
     Ok(rows)
 }
 
-/// Line of a position, from 1. The reader stops between CR and LF, and before blank lines, so lines are counted here.
+/// The line of a position, from 1. The reader stops between CR and LF, and before blank lines, so lines are counted here.
 fn line_of(bytes: &[u8], at: &csv::Position) -> u64 {
     let start = usize::try_from(at.byte()).unwrap_or(usize::MAX).min(bytes.len());
     let blank = bytes[start..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
     1 + bytes[..start + blank].iter().filter(|byte| **byte == b'\n').count() as u64
 }
 
-/// What is wrong, in the words of the file: the column by its name.
+/// The fault in the words of the file, with the column by its name.
 fn fact_of(error: &csv::Error, headers: Option<&csv::StringRecord>) -> String {
     match error.kind() {
         csv::ErrorKind::Deserialize { err, .. } => {

@@ -1,81 +1,81 @@
-//! What is wrong with a study as a whole.
+//! Errors of a study as a whole, and the check of study.toml.
 
 use std::path::PathBuf;
 
 use super::spec::{STUDY_SCHEMA_VERSION, StudySpec};
 
-/// Why a study cannot be run.
+/// The reason why a study cannot be run.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
-    /// No such folder.
+    /// There is no such folder.
     #[error("no folder here: expected a study with study.toml, objects.csv and cards/ (docs/study.md): {}", .0.display())]
     NoFolder(PathBuf),
-    /// A TOML file.
+    /// A TOML file cannot be read.
     #[error(transparent)]
     Config(#[from] ingest::ConfigError),
-    /// A version of another program.
+    /// study.toml has a version that this program does not read.
     #[error("study.toml: schema_version = {0}: this program reads version {STUDY_SCHEMA_VERSION}")]
     Version(u32),
-    /// A number outside its range.
+    /// A number is outside its range.
     #[error("study.toml: {key} = {got}: expected {expected}")]
     Setting {
         /// The key, with its section.
         key: &'static str,
-        /// What stands there.
+        /// The value in the file.
         got: f64,
-        /// What may stand there.
+        /// The values that are allowed.
         expected: &'static str,
     },
-    /// A name that cannot name a file, or nothing where something must be.
+    /// A name cannot name a file, or is missing where there must be one.
     #[error("study.toml: {key} = '{got}': expected {expected}")]
     Name {
         /// The key, with its section.
         key: &'static str,
-        /// What stands there.
+        /// The value in the file.
         got: String,
-        /// What may stand there.
+        /// The values that are allowed.
         expected: &'static str,
     },
-    /// Time zone.
+    /// The time zone is not known.
     #[error("study.toml: time_zone = '{name}': expected an IANA name such as America/Chicago: {source}")]
     TimeZone {
-        /// What stands there.
+        /// The value in the file.
         name: String,
-        /// Why it is refused.
+        /// The reason why it is refused.
         source: jiff::Error,
     },
-    /// Camera.
+    /// A camera is refused.
     #[error("camera '{name}': {source}")]
     Camera {
-        /// Its name.
+        /// The name of the camera.
         name: String,
-        /// Why it is refused.
+        /// The reason why it is refused.
         source: model::CameraSpecError,
     },
-    /// A file that cannot be read.
+    /// A file cannot be read.
     #[error("cannot read the file: {source}: {}", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The error of the system.
         source: std::io::Error,
     },
-    /// A line of a CSV file.
+    /// A line of a CSV file is refused.
     #[error("line {line}: {fact}: {}", path.display())]
     Line {
         /// The file.
         path: PathBuf,
-        /// Line, from 1.
+        /// The line, from 1.
         line: u64,
-        /// What is wrong: expected and got.
+        /// The fault: what was expected, and what was there.
         fact: String,
     },
     /// A table names an object that is not in objects.csv.
     #[error("study.toml: table '{table}' names the object '{object}', which is not in objects.csv")]
     TableObject {
-        /// Table.
+        /// The table.
         table: String,
-        /// Object.
+        /// The object.
         object: String,
     },
     /// The folder of the cards or the marks cannot be listed.
@@ -83,10 +83,10 @@ pub enum StudyError {
     List {
         /// The folder.
         path: PathBuf,
-        /// Why.
+        /// The error of the system.
         source: std::io::Error,
     },
-    /// No session at all.
+    /// There is no session at all.
     #[error("no session: expected one folder per SD card in {}", .0.display())]
     NoSessions(PathBuf),
 }

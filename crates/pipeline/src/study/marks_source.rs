@@ -1,28 +1,28 @@
-//! Who marks.
+//! The setting of who marks.
 
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// Where a study's marks come from.
+/// The source of a study's marks.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MarksSource {
-    /// The study's files of marks; no picture is decoded.
+    /// The study's files of marks. No picture is decoded.
     #[default]
     Manual,
-    /// The program, which finds rims in the selected images; files of marks are not read.
+    /// The program, which finds rims in the selected images. Files of marks are not read.
     Auto,
     /// Both. Where rater `auto` has a file for an image, the file counts, and the image is not searched.
     Both,
 }
 
 impl MarksSource {
-    /// All of them.
+    /// All sources.
     pub const ALL: [Self; 3] = [Self::Manual, Self::Auto, Self::Both];
 
-    /// Its name in study.toml and on the command line.
+    /// The name in study.toml and on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -51,7 +51,7 @@ impl Display for MarksSource {
     }
 }
 
-/// Not the name of a [`MarksSource`].
+/// The error of a text that is not the name of a [`MarksSource`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("'{0}' is not one of: manual, auto, both")]
 pub struct UnknownMarksSource(String);

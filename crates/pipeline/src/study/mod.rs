@@ -32,27 +32,27 @@ pub use uncertainty::UncertaintySpec;
 /// A study whose settings have been read and checked.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// Its folder, links resolved.
+    /// The folder, with links resolved.
     pub dir: PathBuf,
-    /// Its settings, overrides applied.
+    /// The settings of study.toml, with overrides applied.
     pub spec: StudySpec,
-    /// Objects by name.
+    /// The objects of objects.csv, by name.
     pub objects: BTreeMap<String, Object>,
-    /// Objects that found containers are.
+    /// The objects that found containers are, by names.csv.
     pub names: Names,
-    /// Device profile.
+    /// The device profile.
     pub profile: Profile,
     /// The study's camera.
     pub camera_spec: CameraSpec,
-    /// Camera of the pictures that people marked, where it is another.
+    /// The camera of the pictures that people marked, where it is another one.
     pub marks_camera: Option<(CameraSpec, Camera)>,
-    /// Tables, with printed numbers.
+    /// The error tables, with printed numbers.
     pub tables: Vec<TableSpec>,
-    /// Time zone.
+    /// The time zone of image times that name none.
     pub time_zone: jiff::tz::TimeZone,
-    /// Sessions, by name: those with a card, and those that are only marked.
+    /// The sessions by name: those with a card, and those that are only marked.
     pub sessions: Vec<SessionDir>,
-    /// What a bench has taught about the device, where a run is told of it.
+    /// What a bench has taught about the device, where a run is given it.
     pub calibration: Option<CalibrationFile>,
 }
 
@@ -60,7 +60,7 @@ impl Study {
     /// Reads the study in `dir`. `adjust` may change the settings after they are read (command line, environment).
     ///
     /// # Errors
-    /// [`StudyError`] for what concerns the whole study. What concerns one session is found when that session is run.
+    /// [`StudyError`] for what concerns the whole study. A fault of one session shows when that session is run.
     pub fn load(dir: &Path, adjust: impl FnOnce(&mut StudySpec)) -> Result<Self, StudyError> {
         let refuse = || StudyError::NoFolder(dir.to_owned());
         let dir = &dir.canonicalize().ok().filter(|dir| dir.is_dir()).ok_or_else(refuse)?;
@@ -118,7 +118,7 @@ impl Study {
         path.canonicalize().is_ok_and(|path| path.starts_with(&self.dir))
     }
 
-    /// A path relative to the study, with `/` between its parts; as it is where it lies outside.
+    /// A path relative to the study, with `/` between its parts; unchanged where it lies outside.
     pub(crate) fn relative(&self, path: &Path) -> String {
         path.strip_prefix(&self.dir).unwrap_or(path).to_string_lossy().replace('\\', "/")
     }

@@ -1,4 +1,4 @@
-//! names.csv: which object a container is that the program found without marks.
+//! names.csv, which says which objects the containers are that the program found.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -8,23 +8,23 @@ use serde::{Deserialize, Serialize};
 use super::csv_file::read_rows;
 use super::{Object, SessionDir, StudyError};
 
-/// Rater of the rims that the program finds itself.
+/// The rater of found rims.
 pub(crate) const AUTO: &str = "auto";
-/// Its name in a study.
+/// The name of the file in a study.
 pub(crate) const NAMES_FILE: &str = "names.csv";
-/// What the names of containers that were found begin with; a number follows.
+/// The beginning of the names of found containers; a number follows.
 pub(crate) const FOUND: &str = "auto-";
 
 /// The object that a found container is said to be.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Named {
-    /// Object of objects.csv.
+    /// The object of objects.csv.
     pub object: String,
-    /// Line of names.csv that says so, from 1.
+    /// The line of names.csv that says so, from 1.
     pub line: u64,
 }
 
-/// Objects of found containers (`auto-1`), by session and their name there.
+/// The objects of found containers, by session and by the container's name there (`auto-1`).
 pub type Names = BTreeMap<String, BTreeMap<String, Named>>;
 
 #[derive(Deserialize)]
@@ -35,13 +35,13 @@ struct Line {
     object: String,
 }
 
-/// Number of a found container, by its name: 3 of `auto-3`.
+/// The number in the name of a found container: 3 of `auto-3`.
 pub(crate) fn number_of_found(name: &str) -> Option<u32> {
     let digits = name.strip_prefix(FOUND)?;
     digits.parse().ok().filter(|number: &u32| number.to_string() == digits && *number > 0)
 }
 
-/// Reads names.csv; nothing where there is none.
+/// The names of names.csv; none where there is no such file.
 pub(super) fn read_names(
     path: &Path,
     objects: &BTreeMap<String, Object>,

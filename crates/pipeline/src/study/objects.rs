@@ -1,4 +1,4 @@
-//! objects.csv: what was measured, with true sizes where they are known.
+//! objects.csv: the objects of a study, with true sizes where they are known.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,9 +12,9 @@ use super::csv_file::read_rows;
 /// One object of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Object {
-    /// What is known before it is measured.
+    /// The container, with what is known of it before it is measured.
     pub container: Container,
-    /// True sizes: compared with, never measured with.
+    /// The true sizes. Results are compared with them, never measured with them.
     pub truth_mm: BTreeMap<Quantity, f64>,
 }
 
@@ -38,7 +38,7 @@ struct Line {
     wall: Option<Wall>,
 }
 
-/// Reads objects.csv.
+/// The objects of objects.csv, by name.
 pub(super) fn read_objects(path: &Path) -> Result<BTreeMap<String, Object>, StudyError> {
     let mut objects = BTreeMap::new();
     for (line_number, line) in read_rows::<Line>(path)? {

@@ -1,4 +1,4 @@
-//! Printed numbers of publications, as CSV files of the study.
+//! The printed numbers of publications, from CSV files of the study.
 
 use std::path::Path;
 

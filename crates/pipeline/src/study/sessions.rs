@@ -1,4 +1,4 @@
-//! Which sessions a study has.
+//! The sessions of a study, by its folders.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -7,37 +7,37 @@ use serde::{Deserialize, Serialize};
 
 use super::StudyError;
 
-/// session.toml: what is known of one session. Unknown keys are refused.
+/// session.toml: the settings of one session. Unknown keys are refused.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SessionSpec {
-    /// Who wore the camera.
+    /// The participant who wore the camera.
     pub participant: Option<String>,
-    /// Nominal height of the camera above the table, on a bench.
+    /// The nominal height of the camera above the table, on a bench.
     pub setup_height_mm: Option<f64>,
-    /// Nominal pitch, on a bench.
+    /// The nominal pitch, on a bench.
     pub setup_pitch_deg: Option<f64>,
-    /// This session's camera, if not the study's.
+    /// The session's camera, if it is not the study's.
     pub camera: Option<String>,
-    /// Camera of this session's marked pictures, if those are not the raw ones.
+    /// The camera of the session's marked pictures, if those are not the raw ones.
     pub marks_camera: Option<String>,
-    /// When a clock that counts from the device's start was zero.
+    /// The time at which a clock that counts from the device's start was zero.
     pub clock_zero_utc: Option<jiff::Timestamp>,
 }
 
-/// Where one session's files are.
+/// The folders of one session.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SessionDir {
-    /// Name.
+    /// The name of the session.
     pub name: String,
-    /// Folder of the card; none when there are only marks.
+    /// The folder of the card; none when there are only marks.
     pub card: Option<PathBuf>,
-    /// Folders of marks, by rater.
+    /// The folders of marks, by rater.
     pub marks: BTreeMap<String, PathBuf>,
 }
 
 impl SessionDir {
-    /// The files of marks of all raters, by name, in a defined order. A folder that cannot be listed stands for its files.
+    /// The files of marks of all raters by name, in a defined order. A folder that cannot be listed stands for its files.
     #[must_use]
     pub fn marks_files(&self) -> Vec<(String, PathBuf)> {
         let of_rater = |(rater, dir): (&String, &PathBuf)| {
@@ -49,7 +49,7 @@ impl SessionDir {
     }
 }
 
-/// The files of marks in a rater's folder of a session, by name.
+/// The files of marks in one rater's folder of a session, by name.
 pub(crate) fn marks_in(dir: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut paths = std::fs::read_dir(dir)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>()?;
     paths.retain(|path| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json")));
@@ -57,12 +57,12 @@ pub(crate) fn marks_in(dir: &Path) -> std::io::Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-/// The name of a file without its folders and its extension: marks and their image have the same.
+/// The name of a file without its folders and its extension. Marks and their image have the same one.
 pub(crate) fn stem_of(file: &str) -> String {
     Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// Sessions in the order of their names.
+/// The sessions of a study, in the order of their names.
 pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
     let mut sessions: BTreeMap<String, SessionDir> = BTreeMap::new();
     let mut session = |name: &str, fill: &dyn Fn(&mut SessionDir)| {
@@ -86,16 +86,16 @@ pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
     if sessions.is_empty() { Err(StudyError::NoSessions(cards)) } else { Ok(sessions.into_values().collect()) }
 }
 
-/// Folders inside `dir`, hidden ones left out. Odd bytes of names are written as those of files on cards are, so that no two
-/// sessions get the same.
+/// The folders inside `dir`, without hidden ones. Odd bytes of names are written as those of files on cards are, so that no
+/// two sessions get the same name.
 fn folders(dir: &Path) -> Result<Vec<(String, PathBuf)>, StudyError> {
     let refuse = |source| StudyError::List { path: dir.to_owned(), source };
     let mut named = Vec::new();
     for entry in std::fs::read_dir(dir).map_err(refuse)? {
         let entry = entry.map_err(refuse)?;
         let name = ingest::card::name_text(&entry.file_name());
-        // Links are followed here, so that a linked card is told of when it leaves the study, or leads nowhere because a disk
-        // is not there now, and not passed over.
+        // Links are followed here, so that a linked card is not passed over, but becomes a problem, when it lies outside the
+        // study, or leads nowhere because a disk is not connected.
         if std::fs::metadata(entry.path()).map_or(true, |metadata| metadata.is_dir()) && !name.starts_with('.') {
             named.push((name, entry.path()));
         }

@@ -1,4 +1,4 @@
-//! study.toml as it is written, with the defaults of what may be left out.
+//! study.toml as it is written, with the defaults of keys that may be left out.
 
 use std::num::NonZeroUsize;
 
@@ -6,8 +6,8 @@ use model::{Kind, Method, Note, Quantity, Selection, TableLayout};
 use serde::{Deserialize, Serialize};
 
 use super::{MarksSource, UncertaintySpec};
-use crate::rims::{LEAST_DIAMETER_MM, RimShape};
 use crate::signals::{GravityCalibrate, PoseSettings, RangeCone, ReadingSettings};
+use rims::{LEAST_DIAMETER_MM, RimShape};
 
 /// The version of study.toml that this program reads.
 pub(crate) const STUDY_SCHEMA_VERSION: u32 = 1;
@@ -16,42 +16,42 @@ pub(crate) const STUDY_SCHEMA_VERSION: u32 = 1;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StudySpec {
-    /// Version of this layout: 1.
+    /// The version of this layout: 1.
     pub schema_version: u32,
-    /// Name of the study.
+    /// The name of the study.
     pub name: String,
     /// A sentence that every report made from this study carries.
     #[serde(default)]
     pub statement: Option<String>,
-    /// IANA time zone, for image times that name none.
+    /// The IANA time zone for image times that name none.
     #[serde(default = "utc")]
     pub time_zone: String,
-    /// Device profile: built in, or devices/NAME.toml.
+    /// The device profile: built in, or devices/NAME.toml.
     pub device_profile: String,
-    /// Camera: built in, or devices/NAME.toml.
+    /// The camera: built in, or devices/NAME.toml.
     pub camera: String,
-    /// About what people marked.
+    /// The marks, of people or of the program.
     #[serde(default)]
     pub marks: MarksSpec,
-    /// How the camera sits on the device.
+    /// The way the camera sits on the device.
     #[serde(default)]
     pub mount: MountSpec,
-    /// The cameras' clock against the sensors'.
+    /// The camera's clock against the sensors'.
     #[serde(default)]
     pub time: TimeSpec,
-    /// From samples to pitch, roll, stillness and range.
+    /// The steps from samples to pitch, roll, stillness and range.
     #[serde(default)]
     pub signals: SignalsSpec,
-    /// Which frames count.
+    /// The images that count for fused sizes.
     #[serde(default)]
     pub select: SelectSpec,
-    /// From marks to sizes.
+    /// The steps from marks to sizes.
     #[serde(default)]
     pub measure: MeasureSpec,
-    /// Standard uncertainties of what goes in.
+    /// The standard uncertainties of the inputs.
     #[serde(default)]
     pub uncertainty: UncertaintySpec,
-    /// Error tables to make.
+    /// The error tables that are made.
     #[serde(default)]
     pub tables: Vec<TableEntry>,
 }
@@ -64,15 +64,15 @@ fn utc() -> String {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MarksSpec {
-    /// Camera of the pictures that were marked, if those are not the raw ones.
+    /// The camera of the pictures that were marked, if those are not the raw ones.
     pub camera: Option<String>,
-    /// Who marks: people, the program, or both.
+    /// The source of the marks: people, the program, or both.
     pub source: MarksSource,
-    /// Rims that the program finds with less confidence are left out.
+    /// Found rims with less confidence are left out.
     pub min_confidence: f64,
-    /// Rims that the program finds and that are narrower, in mm, are left out: cups, mugs and drinking glasses.
+    /// Found rims that are narrower, in mm, are left out: cups, mugs and drinking glasses.
     pub min_diameter_mm: f64,
-    /// Shapes of rims that the program looks for.
+    /// The shapes of rims that the program looks for.
     pub shapes: Vec<RimShape>,
 }
 
@@ -92,7 +92,7 @@ impl Default for MarksSpec {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MountSpec {
-    /// Camera pitch = sensor pitch + this; the profile's when left out.
+    /// The mount offset: camera pitch = sensor pitch + this. The profile's when left out.
     pub pitch_offset_deg: Option<f64>,
 }
 
@@ -100,9 +100,9 @@ pub struct MountSpec {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct TimeSpec {
-    /// Sensor time = image time + this.
+    /// The lag: sensor time = image time + this.
     pub image_lag_s: f64,
-    /// Whether to work out that lag from the pictures; it is told, and not applied.
+    /// Whether to work out that lag from the pictures. It is reported, not applied.
     pub estimate_lag: bool,
 }
 
@@ -110,23 +110,23 @@ pub struct TimeSpec {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SignalsSpec {
-    /// -3 dB frequency of the low-pass that separates gravity from motion.
+    /// The -3 dB frequency of the low-pass that separates gravity from motion.
     pub gravity_cutoff_hz: f64,
-    /// Largest departure of gravity's length from 1 g.
+    /// The largest departure of gravity's length from 1 g.
     pub gravity_tolerance_mg: f64,
-    /// RMS motion above which an image is not still.
+    /// The RMS motion above which an image is not still.
     pub stillness_max_mg: f64,
-    /// Width of the window around an image's time for the median range.
+    /// The width of the window around an image's time for the median range.
     pub range_window_s: f64,
-    /// Shorter readings are nonsense.
+    /// Shorter readings are no ranges.
     pub range_min_mm: f64,
-    /// Longer readings are beyond the sensor.
+    /// Longer readings are beyond the sensor's reach.
     pub range_max_mm: f64,
     /// The range sensor's own update period; records in between repeat its reading.
     pub range_update_s: f64,
     /// Whether the range is corrected for the sensor's cone; never for the method `paper`.
     pub range_cone: RangeCone,
-    /// What to do about offsets and scales of the accelerometer.
+    /// The correction of offsets and scales of the accelerometer.
     pub gravity_calibration: GravityCalibrate,
 }
 
@@ -191,11 +191,11 @@ impl SignalsSpec {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SelectSpec {
-    /// Pitch at which the paper's errors are lowest.
+    /// The pitch around which images are selected; by default the one at which the paper's errors are lowest.
     pub target_pitch_deg: f64,
-    /// Half width of the window around it.
+    /// The half width of the window around that pitch.
     pub pitch_tolerance_deg: f64,
-    /// So many images, the surest ones, go into a fused size; all of them when left out.
+    /// The number of images, the surest ones, that go into a fused size; all of them when left out.
     pub best_images: Option<NonZeroUsize>,
 }
 
@@ -210,7 +210,7 @@ impl Default for SelectSpec {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MeasureSpec {
-    /// Methods, side by side on the same marks.
+    /// The methods, side by side on the same marks.
     pub methods: Vec<Method>,
 }
 
@@ -220,45 +220,45 @@ impl Default for MeasureSpec {
     }
 }
 
-/// One `[[tables]]` entry; becomes a [`model::TableSpec`] when its printed files are read.
+/// One entry of `[[tables]]`. It becomes a [`model::TableSpec`] when its printed files are read.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TableEntry {
-    /// Short name, used in file names.
+    /// The short name, used in file names.
     pub id: String,
-    /// Caption.
+    /// The caption.
     pub title: String,
-    /// Layout.
+    /// The layout.
     pub layout: TableLayout,
-    /// Objects, in the order of the rows.
+    /// The objects, in the order of the rows.
     #[serde(default)]
     pub objects: Vec<String>,
-    /// Kinds of container.
+    /// The kinds of container.
     #[serde(default)]
     pub kinds: Vec<Kind>,
-    /// Quantities.
+    /// The quantities.
     pub quantities: Vec<Quantity>,
-    /// Method.
+    /// The method.
     pub method: Method,
-    /// Frames.
+    /// The frames that count.
     pub selection: Selection,
-    /// What a publication printed.
+    /// The numbers that a publication printed.
     #[serde(default)]
     pub printed: Option<PrintedFiles>,
-    /// Footnotes.
+    /// The footnotes.
     #[serde(default)]
     pub notes: Vec<Note>,
 }
 
-/// Where printed numbers stand in the study folder.
+/// The files of printed numbers in the study folder.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PrintedFiles {
     /// The publication.
     pub source: String,
-    /// CSV of the printed rows.
+    /// The CSV file of the printed rows.
     pub rows: String,
-    /// CSV of the printed means and SDs.
+    /// The CSV file of the printed means and SDs.
     #[serde(default)]
     pub summaries: Option<String>,
 }

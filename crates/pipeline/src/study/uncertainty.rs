@@ -7,34 +7,34 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct UncertaintySpec {
-    /// Pitch of the device.
+    /// The pitch of the device.
     pub pitch_deg: f64,
-    /// Sideways tilt of the device; the roll is uncertain by this over cos(pitch).
+    /// The sideways tilt of the device; the roll is uncertain by this over cos(pitch).
     pub tilt_deg: f64,
-    /// Angle of the camera on the device.
+    /// The angle of the camera on the device.
     pub mount_deg: f64,
-    /// Scale of the range, in per cent.
+    /// The scale of the range, in per cent.
     pub range_pct: f64,
-    /// Offset of the range.
+    /// The offset of the range.
     pub range_offset_mm: f64,
-    /// Focal length, in per cent.
+    /// The focal length, in per cent.
     pub focal_pct: f64,
     /// Each coordinate of the principal point.
     pub principal_px: f64,
-    /// Displacement by the lens at the corner of the picture.
+    /// The displacement by the lens at the corner of the picture.
     pub distortion_px: f64,
-    /// Pitch and tilt of a still image about those of its session.
+    /// The pitch and tilt of a still image about those of its session.
     pub turn_noise_deg: f64,
-    /// Share of an image's RMS motion that is taken to reach its gravity.
+    /// The share of an image's RMS motion that is taken to reach its gravity.
     pub motion_share: f64,
-    /// Range of an image about that of its session, besides what the readings' own scatter says.
+    /// The range of an image about that of its session, besides what the readings' own scatter says.
     pub range_noise_mm: f64,
     /// One coordinate of a mark set by hand.
     pub mark_px: f64,
 }
 
 impl Default for UncertaintySpec {
-    /// [`InputSigma::default`] in this file's units.
+    /// The values of [`InputSigma::default`] in this file's units.
     fn default() -> Self {
         Self {
             pitch_deg: 1.0,
@@ -54,7 +54,7 @@ impl Default for UncertaintySpec {
 }
 
 impl UncertaintySpec {
-    /// In the units of the mathematics, for a still image whose range readings agree.
+    /// The uncertainties in the units of the mathematics, for a still image whose range readings agree.
     #[must_use]
     pub fn inputs(&self) -> InputSigma {
         InputSigma {
@@ -73,11 +73,11 @@ impl UncertaintySpec {
         }
     }
 
-    /// The same for an image with this RMS motion and this standard error of its median range.
+    /// The uncertainties for an image with this RMS motion and this standard error of its median range.
     #[must_use]
     pub fn inputs_of_image(&self, motion_mg: f64, range_error_mm: f64) -> InputSigma {
         let still = self.inputs();
-        // A sideways acceleration of a g turns gravity by a radian.
+        // A sideways acceleration of 1 g turns gravity by about a radian.
         let by_motion_rad = self.motion_share * motion_mg / 1000.0;
         InputSigma {
             turn_noise_rad: still.turn_noise_rad.hypot(by_motion_rad),
@@ -86,7 +86,7 @@ impl UncertaintySpec {
         }
     }
 
-    /// Every key with its value, for checks: none may be negative.
+    /// Every key with its value, for checks that none is negative.
     pub(super) fn keys(&self) -> [(&'static str, f64); 12] {
         [
             ("uncertainty.pitch_deg", self.pitch_deg),

@@ -1,4 +1,4 @@
-//! The SQLite file of a state: opened to work or to look, checked, set aside.
+//! Opens the SQLite file of a state, to work or only to look; checks it, and sets it aside.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -7,10 +7,11 @@ use rusqlite::{Connection, ErrorCode, OpenFlags};
 
 use super::WorkError;
 
-/// Version of the tables. Another one's state is set aside, and all is made anew from the cards and MCAP files.
+/// The version of the tables. A state of another version is set aside, and everything is made anew from the cards and MCAP
+/// files.
 const STATE_VERSION: i64 = 1;
 
-/// Columns that are read or written; a file without them was made by other hands.
+/// The columns that are read or written; a file without them was not made by this program.
 const COLUMNS: &str = "SELECT session, stage, stage.key, fingerprint, made_utc, seconds, output_sha256, status, json, files, id, \
      written.key FROM stage JOIN output USING (session, stage), written LIMIT 0";
 
@@ -38,16 +39,16 @@ const TABLES: &str = "
         files TEXT NOT NULL           -- fingerprint of those files
     );";
 
-/// Why a state file cannot be opened.
+/// The reason why a state file cannot be opened.
 pub(super) enum Refused {
-    /// It is damaged, or of an older program.
+    /// It is damaged, or of an older version of the program.
     Unusable(String),
     Newer(i64),
     Other(rusqlite::Error),
 }
 
 impl Refused {
-    /// With the file's path.
+    /// The error with the file's path.
     pub fn error(self, path: &Path) -> WorkError {
         let path = path.to_owned();
         match self {
@@ -72,10 +73,10 @@ fn is_damage(error: &rusqlite::Error) -> bool {
     matches!(error.sqlite_error_code(), Some(ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase))
 }
 
-/// Others only look, for moments.
+/// How long to wait for others, who only look, and only for moments.
 const BUSY: Duration = Duration::from_secs(30);
 
-/// Opens a state to look; none when it is of an older program, or was made by other hands.
+/// Opens a state only to look; none when it is of an older program, or was not made by this program.
 pub(super) fn look(path: &Path, access: OpenFlags) -> Result<Option<Connection>, Refused> {
     let connection = Connection::open_with_flags(plain(path), access)?;
     connection.busy_timeout(BUSY)?;
@@ -86,7 +87,7 @@ pub(super) fn look(path: &Path, access: OpenFlags) -> Result<Option<Connection>,
     }
 }
 
-/// Opens a state to work, or makes it.
+/// Opens a state to work, and makes it where there is none.
 pub(super) fn connect(path: &Path) -> Result<Connection, Refused> {
     let connection = Connection::open(plain(path))?;
     connection.busy_timeout(BUSY)?;
@@ -110,7 +111,7 @@ pub(super) fn connect(path: &Path) -> Result<Connection, Refused> {
     Ok(connection)
 }
 
-/// To SQLite, a path that begins with `file:` would be a URI.
+/// The path in a form that SQLite takes for a plain path: one that begins with `file:` would be a URI.
 fn plain(path: &Path) -> PathBuf {
     if path.is_relative() { Path::new(".").join(path) } else { path.to_owned() }
 }
@@ -129,14 +130,14 @@ fn version(connection: &Connection) -> rusqlite::Result<i64> {
     connection.query_row("PRAGMA user_version", [], |row| row.get(0))
 }
 
-/// Renames it to `.old`.
+/// Renames the file to `.old`.
 pub(super) fn set_aside(path: &Path) -> Result<(), WorkError> {
     let with = |suffix: &str| {
         let mut name = path.as_os_str().to_owned();
         name.push(suffix);
         PathBuf::from(name)
     };
-    // A journal belongs to the file that is set aside; beside a new one it would be played into it.
+    // A journal belongs to the file that is set aside; beside a new file SQLite would play it into that one.
     let journal = match std::fs::remove_file(with("-journal")) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error),
         _ => Ok(()),

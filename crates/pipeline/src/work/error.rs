@@ -1,8 +1,8 @@
-//! What can be wrong with a work folder.
+//! Errors of a work folder.
 
 use std::path::PathBuf;
 
-/// A work folder that cannot be used.
+/// The error of a work folder that cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum WorkError {
     /// The folder cannot be made.
@@ -10,7 +10,7 @@ pub enum WorkError {
     Folder {
         /// The folder.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// A file there cannot be removed or renamed.
@@ -18,7 +18,7 @@ pub enum WorkError {
     File {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// Another run is at work there.
@@ -26,7 +26,7 @@ pub enum WorkError {
     Held {
         /// The lock.
         path: PathBuf,
-        /// Who holds it, as it told.
+        /// The holder, in its own words.
         holder: String,
     },
     /// The lock cannot be made.
@@ -34,25 +34,25 @@ pub enum WorkError {
     Lock {
         /// The lock.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
-    /// The state of a newer program.
+    /// The state is of a newer version of the program.
     #[error("the work folder is of a newer version of this program (state version {got}, expected {expected}); update, or give --work another folder: {}", path.display())]
     Newer {
         /// The state file.
         path: PathBuf,
-        /// Version that this program writes.
+        /// The version that this program writes.
         expected: i64,
-        /// Version found.
+        /// The version of the file.
         got: i64,
     },
-    /// The state file is no state, and a new one is none either.
+    /// The state file is not a state, and a new one cannot be made either.
     #[error("{why}; remove it, or give --work another folder: {}", path.display())]
     Unusable {
         /// The state file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault of the file.
         why: String,
     },
     /// The state file cannot be read or written.
@@ -60,10 +60,10 @@ pub enum WorkError {
     State {
         /// The state file.
         path: PathBuf,
-        /// What SQLite said.
+        /// The error of SQLite.
         source: rusqlite::Error,
     },
-    /// What a stage gave does not go into text: a defect of the program.
+    /// The output of a stage cannot be written as JSON: a defect of the program.
     #[error("cannot keep what a stage gave: {0}; please report this as a bug")]
     Text(#[from] serde_json::Error),
 }

@@ -1,4 +1,4 @@
-//! One run at a time in a work folder. The system drops the lock with the process, however it ends.
+//! Lets one run at a time into a work folder. The system drops the lock with the process, however that ends.
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read as _, Seek as _, Write as _};
@@ -9,7 +9,7 @@ use jiff::Timestamp;
 
 use super::WorkError;
 
-/// A lock, held until this is dropped.
+/// A lock, held until this value is dropped.
 pub(super) struct Lock {
     _file: File,
 }
@@ -36,7 +36,7 @@ impl Lock {
     }
 }
 
-/// `status` looks whether the lock is held, and holds it for that moment: it is asked for more than once.
+/// Tries several times: `status` looks whether the lock is held, and holds it for that moment.
 fn try_lock(file: &File) -> Result<(), TryLockError> {
     for _ in 0..10 {
         match file.try_lock() {
@@ -47,12 +47,12 @@ fn try_lock(file: &File) -> Result<(), TryLockError> {
     file.try_lock()
 }
 
-/// Who is at work in a work folder.
+/// The run at work in a work folder, in its own words.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Holder(pub String);
 
 impl Holder {
-    /// The run at work, if there is one. Takes nothing and waits for nothing.
+    /// The run at work, if there is one. Takes no lock and waits for nothing.
     #[must_use]
     pub fn current(work_dir: &Path) -> Option<Self> {
         let mut file = File::open(work_dir.join("lock")).ok()?;
@@ -65,7 +65,7 @@ impl Holder {
 
 fn holder_line(file: &mut File) -> String {
     let mut text = String::new();
-    // The holder's own words are a help, not a need.
+    // The holder's own words help people, but nothing depends on them.
     let _ = file.rewind().and_then(|()| file.take(1_000).read_to_string(&mut text));
     match text.lines().next() {
         Some(line) if !line.is_empty() => line.to_owned(),

@@ -1,10 +1,10 @@
-//! The work folder: what can be made anew, kept so that it need not be.
+//! The work folder keeps what can be made anew, so that it need not be.
 //!
 //! | | |
 //! |---|---|
-//! | `state.sqlite` | which stage of which session was made from what, and what came out ([`state`]) |
+//! | `state.sqlite` | which stage of which session was made from what, and its output ([`state`]) |
 //! | `mcap/SESSION.mcap` | the recording of a session |
-//! | `annotated/SESSION.annotated.mcap` | likewise, with what was found in it, where that was asked for |
+//! | `annotated/SESSION.annotated.mcap` | the recording with marks and sizes for viewers, where that was asked for |
 //! | `lock` | held by the run at work ([`lock`]) |
 
 mod database;
@@ -29,8 +29,8 @@ pub(crate) struct WorkFolder {
 }
 
 impl WorkFolder {
-    /// Makes the folder if need be, and takes its lock. What a killed run left half-written is removed; a state file that
-    /// cannot be read is set aside, and all is made anew.
+    /// Opens the folder, makes it where there is none, and takes its lock. Files that a killed run left half-written are
+    /// removed. A state file that cannot be read is set aside, and everything is made anew.
     pub fn open(dir: &Path, program: &str) -> Result<Self, WorkError> {
         let mcap_dir = dir.join("mcap");
         let whole = std::fs::create_dir_all(&mcap_dir).and_then(|()| mcap_dir.canonicalize());
@@ -40,14 +40,14 @@ impl WorkFolder {
         Ok(Self { state: State::open(&state_file(dir))?, mcap_dir, _lock: lock })
     }
 
-    /// Where the recording of a session is.
+    /// The path of the recording of a session.
     pub fn mcap(&self, session: &str) -> PathBuf {
         self.mcap_dir.join(format!("{session}.mcap"))
     }
 }
 
 impl WorkFolder {
-    /// The folder of annotated recordings, made if need be; what a killed run left half-written is removed.
+    /// The folder of annotated recordings, made where there is none. Files that a killed run left half-written are removed.
     pub fn annotated_dir(&self) -> Result<PathBuf, WorkError> {
         let dir = self.mcap_dir.with_file_name(ANNOTATED);
         std::fs::create_dir_all(&dir).map_err(|source| WorkError::Folder { path: dir.clone(), source })?;
@@ -55,7 +55,7 @@ impl WorkFolder {
         Ok(dir)
     }
 
-    /// Deletes what is there of other sessions than these.
+    /// Deletes what the folder has of other sessions than these.
     pub fn prune(&self, sessions: &[&str]) -> Result<(), WorkError> {
         for session in self.state.kept_by_session()?.into_keys().filter(|session| !sessions.contains(&session.as_str()))
         {
@@ -78,29 +78,29 @@ fn remove_file(path: &Path) -> Result<(), WorkError> {
     }
 }
 
-/// The folder of annotated recordings, in the work folder.
+/// The name of the folder of annotated recordings in the work folder.
 const ANNOTATED: &str = "annotated";
 
 fn annotated_name(session: &str) -> String {
     format!("{session}.annotated.mcap")
 }
 
-/// Where a work folder has the annotated recording of a session.
+/// The path of the annotated recording of a session in a work folder.
 pub(crate) fn annotated_of(dir: &Path, session: &str) -> PathBuf {
     dir.join(ANNOTATED).join(annotated_name(session))
 }
 
-/// Where the state of a work folder is.
+/// The path of the state in a work folder.
 pub(crate) fn state_file(dir: &Path) -> PathBuf {
     dir.join("state.sqlite")
 }
 
-/// Where a work folder has the recording of a session.
+/// The path of the recording of a session in a work folder.
 pub(crate) fn recording_of(dir: &Path, session: &str) -> PathBuf {
     dir.join("mcap").join(format!("{session}.mcap"))
 }
 
-/// Files that ingest writes before it gives them their names. Nobody else writes them while the lock is held.
+/// Removes the files that ingest writes before it gives them their names. Nobody else writes them while the lock is held.
 fn remove_partial(mcap_dir: &Path) {
     let entries = std::fs::read_dir(mcap_dir).into_iter().flatten().flatten();
     for entry in entries.filter(|entry| ingest::is_partial(&entry.file_name())) {

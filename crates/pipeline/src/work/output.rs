@@ -1,28 +1,29 @@
-//! What the state says of a session.
+//! The stages of a session as the state keeps them.
 
 use model::SessionStatus;
 
 /// A stage of a session that was done.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct KeptStage {
-    /// What it was made from; empty when it failed, or its input changed meanwhile: it is then done again.
+    /// The key of everything that it was made from; empty when it failed, or when its input changed meanwhile, so that it is
+    /// done again.
     pub key: String,
-    /// What the system said of its input files then; none when they may have changed unseen.
+    /// The fingerprint of its input files at that time; none when they may have changed unseen.
     pub fingerprint: Option<String>,
-    /// When it was done.
+    /// The time at which it was done, in UTC.
     pub made_utc: String,
-    /// How long that took.
+    /// The time that it took.
     pub seconds: f64,
-    /// SHA-256 of what came out.
+    /// SHA-256 of its output.
     pub output_sha256: String,
 }
 
-/// What is kept of a session.
+/// The stages that are kept of a session.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Kept {
     pub ingest: Option<KeptStage>,
     pub signals: Option<KeptStage>,
     pub measure: Option<KeptStage>,
-    /// How it fared.
+    /// How the session fared.
     pub status: Option<SessionStatus>,
 }

@@ -1,4 +1,4 @@
-//! The state of a work folder: an SQLite file, which survives a kill at any moment and opens in tools that people have.
+//! The state of a work folder, in an SQLite file, which survives a kill at any moment and opens in common tools.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,16 +12,16 @@ use super::database::{Refused, connect, look, set_aside};
 use super::{Kept, KeptStage, WorkError};
 use crate::inputs::sha256_of_bytes;
 
-/// What was last written as results.
+/// The results that were written last.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Written {
-    /// SHA-256 of all that went in.
+    /// SHA-256 of everything that went into them.
     pub key: String,
-    /// Fingerprint of the files.
+    /// The fingerprint of their files.
     pub files: String,
 }
 
-/// What a stage gave.
+/// The output of a stage, to be kept.
 pub(crate) struct StageOutput<'a> {
     pub key: &'a str,
     pub fingerprint: Option<String>,
@@ -30,14 +30,15 @@ pub(crate) struct StageOutput<'a> {
     pub status: Option<&'a SessionStatus>,
 }
 
-/// The open state. Every change is on disk when the call returns.
+/// The open state. Every change is on disk when a call returns.
 pub(crate) struct State {
     path: PathBuf,
     connection: Mutex<Connection>,
 }
 
 impl State {
-    /// Opens or makes it. A file that is damaged or of an older program is set aside as `state.sqlite.old`.
+    /// Opens the state, and makes it where there is none. A file that is damaged or of an older program is set aside as
+    /// `state.sqlite.old`.
     pub fn open(path: &Path) -> Result<Self, WorkError> {
         match connect(path) {
             Ok(connection) => Ok(Self { path: path.to_owned(), connection: Mutex::new(connection) }),
@@ -51,13 +52,13 @@ impl State {
         }
     }
 
-    /// Opens it to look, beside a run at work; none when there is no usable state.
+    /// Opens the state only to look, also while a run is at work; none when there is no usable state.
     pub fn open_to_look(path: &Path) -> Result<Option<Self>, WorkError> {
         if !path.is_file() {
             return Ok(None);
         }
         let looked = match look(path, OpenFlags::SQLITE_OPEN_READ_ONLY) {
-            // A killed run left a journal. SQLite undoes what it had begun, as the next run would.
+            // A killed run left a journal. SQLite undoes what that run had begun, as the next run would.
             Err(Refused::Other(error)) if error.sqlite_error_code() == Some(ErrorCode::ReadOnly) => {
                 look(path, OpenFlags::SQLITE_OPEN_READ_WRITE)
             }
@@ -72,7 +73,7 @@ impl State {
         }
     }
 
-    /// What is kept, by session.
+    /// The stages that are kept, by session.
     pub fn kept_by_session(&self) -> Result<BTreeMap<String, Kept>, WorkError> {
         self.with(|db| {
             let mut kept: BTreeMap<String, Kept> = BTreeMap::new();
@@ -88,7 +89,7 @@ impl State {
                     "signals" => session.signals = Some(stage),
                     "measure" => {
                         session.status = status.and_then(|text| serde_json::from_str(&text).ok());
-                        // Without its status a session is measured anew.
+                        // Without its status a session is measured again.
                         session.measure = session.status.is_some().then_some(stage);
                     }
                     _ => {}
@@ -98,7 +99,7 @@ impl State {
         })
     }
 
-    /// What a stage of a session gave; none when it is not what was written.
+    /// The output of a stage of a session; none where it is not what was written.
     pub fn output(&self, session: &str, stage: Stage) -> Result<Option<String>, WorkError> {
         let stored: Option<(String, String)> = self.with(|db| {
             let query = "SELECT json, output_sha256 FROM stage JOIN output USING (session, stage) \
@@ -110,7 +111,7 @@ impl State {
         Ok(good.map(|(output, _)| output))
     }
 
-    /// Keeps what a stage of a session gave; gives its SHA-256.
+    /// Keeps the output of a stage of a session, and returns its SHA-256.
     pub fn keep(&self, session: &str, stage: Stage, output: &StageOutput<'_>) -> Result<String, WorkError> {
         let status = output.status.map(serde_json::to_string).transpose()?;
         let sha256 = sha256_of_bytes(output.output.as_bytes());
@@ -129,13 +130,13 @@ impl State {
         Ok(sha256)
     }
 
-    /// The input files of a stage were looked at again, and are what they were.
+    /// Records that the input files of a stage were looked at again and have not changed.
     pub fn touch(&self, session: &str, stage: Stage, fingerprint: Option<&str>) -> Result<(), WorkError> {
         let update = "UPDATE stage SET fingerprint = ?3 WHERE session = ?1 AND stage = ?2";
         self.with(|db| db.execute(update, params![session, stage.code(), fingerprint])).map(|_| ())
     }
 
-    /// Forgets a session.
+    /// Deletes all stages of a session.
     pub fn forget(&self, session: &str) -> Result<(), WorkError> {
         self.with(|db| {
             let both = db.unchecked_transaction()?;
@@ -145,7 +146,7 @@ impl State {
         })
     }
 
-    /// What was last written as results.
+    /// The results that were written last.
     pub fn written(&self) -> Result<Option<Written>, WorkError> {
         self.with(|db| {
             let written = |row: &rusqlite::Row<'_>| Ok(Written { key: row.get(0)?, files: row.get(1)? });
@@ -153,7 +154,7 @@ impl State {
         })
     }
 
-    /// Remembers what was written as results.
+    /// Remembers the results that were written.
     pub fn set_written(&self, written: &Written) -> Result<(), WorkError> {
         let insert = "INSERT OR REPLACE INTO written (id, key, files) VALUES (1, ?1, ?2)";
         self.with(|db| db.execute(insert, params![written.key, written.files])).map(|_| ())
@@ -168,7 +169,7 @@ impl State {
     }
 }
 
-/// A row of stages: session, stage, what is kept, status.
+/// The columns of a row of stages: session, stage, what is kept, status.
 fn stage_of(row: &rusqlite::Row<'_>) -> rusqlite::Result<(String, String, KeptStage, Option<String>)> {
     let stage = KeptStage {
         key: row.get(2)?,
@@ -180,7 +181,8 @@ fn stage_of(row: &rusqlite::Row<'_>) -> rusqlite::Result<(String, String, KeptSt
     Ok((row.get(0)?, row.get(1)?, stage, row.get(7)?))
 }
 
-/// SQLite keeps values of any type in any column. One of another type was put there by other hands, and counts as none.
+/// The value; none where its type is wrong. SQLite keeps values of any type in any column, and one of another type was not
+/// written by this program.
 fn unless_odd<T>(value: rusqlite::Result<T>) -> rusqlite::Result<Option<T>> {
     use rusqlite::Error::{FromSqlConversionFailure, IntegralValueOutOfRange, InvalidColumnType};
     match value {

@@ -1,17 +1,17 @@
-//! What a comparison found.
+//! The result of a comparison.
 
 use std::fmt;
 
-/// What a comparison found.
+/// The result of a comparison of our tables with expected ones.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Comparison {
-    /// Number of numbers compared.
+    /// Count of the numbers that were compared.
     pub checked: usize,
-    /// Those that are off, and what was expected and is not there; in the order of files, rows and columns.
+    /// The numbers that are off, and the expected things that are not there, in the order of files, rows and columns.
     pub differences: Vec<Difference>,
 }
 
-/// One difference.
+/// A difference between our tables and the expected ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
     /// Name of the file.
@@ -20,25 +20,26 @@ pub struct Difference {
     pub row: String,
     /// The column; empty for a difference of the whole row.
     pub column: String,
-    /// What was expected.
+    /// The expected number, or a word for the thing that is missing.
     pub expected: String,
-    /// What we have.
+    /// Our number, or the words for why there is none.
     pub got: String,
-    /// By how much they differ, in the unit of `allowed`; none where there is no number on our side.
+    /// The absolute difference of the two numbers, in the unit of `allowed`; none where we have no number.
     pub difference: Option<f64>,
-    /// How much they may, and the unit: percentage points, per cent of the expected number, or none for counts.
+    /// The greatest difference that is allowed, and its unit: percentage points, per cent of the expected number, or none for
+    /// counts.
     pub allowed: Option<(f64, &'static str)>,
 }
 
 impl Difference {
-    /// Something that is not there.
+    /// The difference that stands for an expected thing that is not there.
     pub(super) fn missing(file: &str, row: &str, column: &str, expected: &str, got: &str) -> Self {
         let [file, row, column, expected, got] = [file, row, column, expected, got].map(str::to_owned);
         Self { file, row, column, expected, got, difference: None, allowed: None }
     }
 }
 
-/// How the numbers of a column are compared.
+/// The absolute difference of two numbers of a column, and the allowed one with the unit of both.
 fn rule(column: &str, expected: f64, got: f64, tolerance_pct: f64) -> (f64, (f64, &'static str)) {
     let absolute = (got - expected).abs();
     if column.ends_with("_pct") {
@@ -52,7 +53,7 @@ fn rule(column: &str, expected: f64, got: f64, tolerance_pct: f64) -> (f64, (f64
 }
 
 impl Comparison {
-    /// Compares one number with our cell.
+    /// Compares an expected number with our cell.
     pub(super) fn check(&mut self, file: &str, row: &str, column: &str, expected: f64, got: &str, tolerance_pct: f64) {
         self.checked += 1;
         let Ok(number) = got.parse::<f64>() else {
@@ -70,7 +71,7 @@ impl Comparison {
         }
     }
 
-    /// Whether all is as expected.
+    /// Whether everything is as expected.
     #[must_use]
     pub fn is_ok(&self) -> bool {
         self.differences.is_empty()

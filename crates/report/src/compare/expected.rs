@@ -1,35 +1,35 @@
-//! Expected tables, as read from their files.
+//! Reads expected tables from their files.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Optional column of expected files: the row's own tolerance.
+/// Name of the optional column of expected files that holds the row's own tolerance.
 const TOLERANCE: &str = "tolerance_pct";
 
-/// A comparison that could not be made.
+/// Why a comparison could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum CompareError {
     /// The tolerance is not a number from 0 up.
     #[error("expected a tolerance of 0 per cent or more, got {got}")]
     Tolerance {
-        /// What was given.
+        /// The tolerance that was given.
         got: String,
     },
     /// The folder or a file cannot be read.
     #[error("cannot read the expected tables; check the name and your rights: {}", path.display())]
     Read {
-        /// Folder or file.
+        /// The folder or the file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
-    /// No CSV file in the folder.
+    /// There is no CSV file in the folder.
     #[error("no expected tables: expected files like table_II.csv, as 'aim-batch report' writes them, in {}", path.display())]
     NoFiles {
         /// The folder.
         path: PathBuf,
     },
-    /// Not a single number in all files.
+    /// There is not a single number in all files.
     #[error("nothing to compare: the expected tables hold no numbers, in {}", path.display())]
     NothingToCompare {
         /// The folder.
@@ -40,7 +40,7 @@ pub enum CompareError {
     Csv {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it, with the line.
+        /// The error of the CSV reader, with the line.
         source: csv::Error,
     },
     /// A cell does not hold a number.
@@ -48,16 +48,16 @@ pub enum CompareError {
     Number {
         /// The file.
         path: PathBuf,
-        /// Line, counted from 1.
+        /// Number of the line, counted from 1.
         line: u64,
-        /// Column.
+        /// Name of the column.
         column: String,
-        /// What it holds.
+        /// The content of the cell.
         got: String,
     },
 }
 
-/// The CSV files of a folder, by name.
+/// The CSV files of a folder, ordered by name.
 pub(super) fn csv_files(dir: &Path) -> Result<Vec<PathBuf>, CompareError> {
     let unreadable = |source| CompareError::Read { path: dir.to_owned(), source };
     let entries: Vec<_> = std::fs::read_dir(dir).and_then(Iterator::collect::<Result<_, _>>).map_err(unreadable)?;
@@ -70,16 +70,16 @@ pub(super) fn csv_files(dir: &Path) -> Result<Vec<PathBuf>, CompareError> {
     if files.is_empty() { Err(CompareError::NoFiles { path: dir.to_owned() }) } else { Ok(files) }
 }
 
-/// One file.
+/// A file of an expected table.
 pub(super) struct ExpectedFile {
     path: PathBuf,
-    /// Its name without extension.
+    /// The file's name without extension.
     pub(super) stem: String,
     header: Vec<String>,
     pub(super) rows: Vec<ExpectedRow>,
 }
 
-/// One row.
+/// A row of an expected table.
 pub(super) struct ExpectedRow {
     line: u64,
     cells: csv::StringRecord,
@@ -92,6 +92,7 @@ impl ExpectedRow {
 }
 
 impl ExpectedFile {
+    /// The table of a CSV file. Fails where the file cannot be read, or is no CSV with rows of equal length.
     pub(super) fn read(path: &Path) -> Result<Self, CompareError> {
         let bytes = std::fs::read(path).map_err(|source| CompareError::Read { path: path.to_owned(), source })?;
         // Spreadsheets begin UTF-8 files with a byte order mark.
@@ -114,7 +115,7 @@ impl ExpectedFile {
         format!("{}.csv", self.stem)
     }
 
-    /// The columns but that of tolerances.
+    /// The columns, without that of tolerances, with their indices.
     pub(super) fn columns(&self) -> impl Iterator<Item = (usize, &str)> {
         self.header
             .iter()
@@ -123,7 +124,7 @@ impl ExpectedFile {
             .map(|(index, name)| (index, name.as_str()))
     }
 
-    /// The number in a cell, or none where it is empty.
+    /// The number in a cell; none where the cell is empty. Fails where it holds anything else.
     pub(super) fn number(&self, row: &ExpectedRow, column: usize, name: &str) -> Result<Option<f64>, CompareError> {
         let text = row.cell(column);
         if text.is_empty() {
@@ -135,7 +136,7 @@ impl ExpectedFile {
         }
     }
 
-    /// The row's own tolerance.
+    /// The row's own tolerance; none where it has none. Fails where it is no number from 0 up.
     pub(super) fn tolerance(&self, row: &ExpectedRow) -> Result<Option<f64>, CompareError> {
         let Some(column) = self.header.iter().position(|name| name == TOLERANCE) else { return Ok(None) };
         match self.number(row, column, TOLERANCE)? {

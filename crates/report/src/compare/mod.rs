@@ -1,4 +1,4 @@
-//! Our tables against a folder of expected ones: the gate of automatic runs.
+//! Compares our tables with a folder of expected ones: the gate of automatic runs.
 
 mod comparison;
 mod expected;
@@ -14,9 +14,9 @@ use crate::render::{header, record};
 use crate::table::{Role, Table};
 use crate::write_dir::every_table;
 
-/// Compares our tables with every CSV file in `expected_dir`, which are named and laid out like those of
+/// Compares our tables with every CSV file in `expected_dir`. The files have the names and the layout of those of
 /// [`write_dir`](crate::write_dir) (docs/tables.md). `tolerance_pct` is in percentage points for errors in per cent, and
-/// in per cent of the expected number for sizes; a column `tolerance_pct` in an expected file overrules it row by row.
+/// in per cent of the expected number for sizes. A column `tolerance_pct` in an expected file overrules it row by row.
 ///
 /// # Errors
 /// [`CompareError`]: the tolerance is no number from 0 up, the folder or a file cannot be read, there is no CSV file or no
@@ -40,7 +40,7 @@ pub fn compare(expected_dir: &Path, results: &Results, tolerance_pct: f64) -> Re
     Ok(comparison)
 }
 
-/// A column of the expected file that is also ours.
+/// A column that the expected file and our table both have, with its index in each.
 struct Pair {
     theirs: usize,
     ours: usize,
@@ -105,7 +105,7 @@ fn compare_row(
     Ok(())
 }
 
-/// Words must be equal; numbers may be written differently (20 and 20.0).
+/// Whether two key cells are the same: equal words, or equal numbers that may be written differently (20 and 20.0).
 fn is_same_key(expected: &str, ours: &str) -> bool {
     match (expected.parse::<f64>(), ours.parse::<f64>()) {
         (Ok(expected), Ok(ours)) => (expected - ours).abs() < 1e-6,

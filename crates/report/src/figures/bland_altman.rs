@@ -1,4 +1,4 @@
-//! Predicted against true sizes, as Bland and Altman draw agreement.
+//! The figure `bland_altman`: errors against true sizes, as Bland and Altman (1986) draw agreement.
 
 use model::Level;
 use model::validation::ErrorSummary;
@@ -21,7 +21,7 @@ const ZERO: Paint = Paint::line(Colour::Ink, 0.8).faint(0.5);
 const BIAS: Paint = Paint::line(Colour::Ink, 1.8);
 const LIMIT: Paint = Paint::line(Colour::Ink, 1.2).dashed("6 3");
 
-/// Fused sizes against their true ones, or those of single images where none is fused.
+/// Draws the errors of fused sizes against the true sizes, or of the sizes of single images where no size is fused.
 pub(super) fn draw(results: &Results) -> Attempt {
     let fused = Sorted::new(erring(&results.rows, Level::Fused));
     let (sorted, level) = if fused.is_empty() {
@@ -32,7 +32,7 @@ pub(super) fn draw(results: &Results) -> Attempt {
     let Some([low, high]) = padded(sorted.all().map(|erring| erring.truth_mm), 0.06) else {
         return Attempt::left_out(NAME, TITLE, NO_TRUTH);
     };
-    // Room at the right for the values of bias and limits.
+    // There must be room at the right for the values of bias and limits.
     let x = [low, high + 0.3 * (high - low)];
     let axes = sorted.dimensions.iter().map(|dimension| (dimension.name(), Axis::linear(domain(&sorted, *dimension))));
     let grid = Grid {
@@ -62,7 +62,7 @@ pub(super) fn draw(results: &Results) -> Attempt {
     Attempt::drawn(NAME, TITLE, [caption(&sorted, level, beyond) + &drawn.remark(), alt(&sorted)], drawing)
 }
 
-/// Holds the limits of agreement of every method, too.
+/// The domain of errors in mm, which holds the limits of agreement of every method as well.
 fn domain(sorted: &Sorted<'_>, dimension: Dimension) -> [f64; 2] {
     let errors: Vec<f64> = sorted.of_dimension(dimension).map(|erring| erring.error_mm).collect();
     let limits = sorted.methods.iter().filter_map(|method| summary(sorted.cell(dimension, *method))?.limits).flatten();
@@ -83,7 +83,7 @@ fn mark<'a>(panel: &Panel, erring: Erring<'a>) -> Mark<Erring<'a>> {
     Mark { x, y, look, weight: erring.error_mm.abs(), of: erring }
 }
 
-/// Bias and limits, with their values at the right.
+/// Draws the lines of bias and limits, with their values at the right.
 fn draw_agreement(drawing: &mut Drawing, panel: &Panel, rows: &[Erring<'_>]) {
     let Some(summary) = summary(rows) else { return };
     panel.level(drawing, "bias", BIAS, summary.bias);
@@ -93,7 +93,7 @@ fn draw_agreement(drawing: &mut Drawing, panel: &Panel, rows: &[Erring<'_>]) {
     }
     let mut taken: Vec<f64> = Vec::new();
     for value in [summary.bias, low, high] {
-        // A label that would lie on another is left out: table accuracy has the numbers.
+        // A label that would lie on another one is left out, since the table accuracy has the numbers.
         let y = panel.y.place(value) - 3.0;
         let is_free = taken.iter().all(|taken| (taken - y).abs() >= 11.0) && y - 8.0 >= panel.top();
         if panel.y.holds(value) && is_free {

@@ -1,4 +1,4 @@
-//! Error against pitch, and against the height of the camera.
+//! The figures `error_by_pitch` and `error_by_height`: errors against the pitch, and against the height of the camera.
 
 use std::collections::BTreeMap;
 
@@ -28,13 +28,13 @@ struct Against {
     title: &'static str,
     x_label: &'static str,
     what: &'static str,
-    /// The value of a row.
+    /// The pitch or height of a row.
     value: fn(&ResultRow) -> Option<f64>,
-    /// The borders of the row's band, as in the table of the same name; equal ones for a nominal value.
+    /// The borders of the row's band, as in the table of the same name. They are equal where the value is nominal.
     band: fn(&ResultRow) -> Option<[f64; 2]>,
 }
 
-/// Errors of single images by pitch.
+/// Draws the errors of single images by pitch.
 pub(super) fn by_pitch(results: &Results) -> Attempt {
     let against = Against {
         name: "error_by_pitch",
@@ -47,7 +47,7 @@ pub(super) fn by_pitch(results: &Results) -> Attempt {
     draw(&against, results, Window::from_results(results))
 }
 
-/// Errors of single images by the measured height of the camera above the table.
+/// Draws the errors of single images by the measured height of the camera above the table.
 pub(super) fn by_height(results: &Results) -> Attempt {
     let against = Against {
         name: "error_by_height",
@@ -112,7 +112,7 @@ fn mark<'a>(panel: &Panel, erring: Erring<'a>, x: f64) -> Mark<Erring<'a>> {
     Mark { x: panel.x.place(x), y, look, weight: error.abs(), of: erring }
 }
 
-/// Mean and SD of every band.
+/// Draws the mean and the SD of the errors in every band.
 fn draw_bands(drawing: &mut Drawing, panel: &Panel, rows: &[Erring<'_>], against: &Against) {
     let mut bands: BTreeMap<[i64; 2], ([f64; 2], Vec<f64>)> = BTreeMap::new();
     for erring in rows {
@@ -124,7 +124,7 @@ fn draw_bands(drawing: &mut Drawing, panel: &Panel, rows: &[Erring<'_>], against
     let (mut means, mut spreads) = (String::new(), String::new());
     for (band, errors) in bands.values() {
         let Some(stats) = ErrorStats::from_errors(errors) else { continue };
-        // A nominal value is one value; its mean needs some width to be seen.
+        // A nominal value has no width, but the bar of its mean needs some to be seen.
         let [from, to] = *band;
         let ends = if to > from { [from, to] } else { [from - 2.0, from + 2.0] };
         if panel.y.holds(stats.mean) {

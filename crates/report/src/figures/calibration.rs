@@ -1,4 +1,4 @@
-//! Errors against the uncertainties that were predicted for them.
+//! The figure `calibration`: errors against the uncertainties that were predicted for them.
 
 use super::coverage::{Claimed, Claims, K_95, level_name};
 use super::drawing::{Colour, Drawing, Paint};
@@ -19,13 +19,14 @@ const TWO: Paint = Paint::line(Colour::Ink, 1.2).dashed("6 3");
 const BINNED: Paint = Paint::line(Colour::Ink, 1.2).dashed("1.5 2.5");
 const BIN: Look = Look::filled(Symbol::Diamond, Colour::Ink);
 
-/// Sizes in a bin, at least; and bins, at most.
+/// Least number of sizes in a bin.
 const BIN_AT_LEAST: usize = 8;
+/// Greatest number of bins.
 const MOST_BINS: usize = 6;
-/// Decades of error that are drawn below the smallest predicted uncertainty: smaller errors stand at the edge.
+/// The axis of errors begins at the smallest predicted uncertainty over this number. Smaller errors stand at the edge.
 const BELOW: f64 = 50.0;
 
-/// Absolute errors against predicted standard uncertainties, both logarithmic.
+/// Draws absolute errors against predicted standard uncertainties, both on logarithmic axes.
 pub(super) fn draw(results: &Results) -> Attempt {
     let claims = Claims::from_results(results);
     let Some((x, y)) = domains(&claims) else { return Attempt::left_out(NAME, TITLE, NO_TRUTH) };
@@ -62,7 +63,7 @@ pub(super) fn draw(results: &Results) -> Attempt {
     Attempt::drawn(NAME, TITLE, [caption(&claims) + &drawn.remark(), alt(&claims)], drawing)
 }
 
-/// Domains of uncertainty and error; none of no sizes.
+/// The domains of uncertainties and of errors, in mm; none where there are no sizes.
 fn domains(claims: &Claims<'_>) -> Option<([f64; 2], [f64; 2])> {
     let all = claims.all();
     let fold = |values: &mut dyn Iterator<Item = f64>| {
@@ -101,7 +102,8 @@ fn draw_lines(drawing: &mut Drawing, panel: &Panel, [low, high]: [f64; 2]) {
     drawing.path("claimed", TWO, panel.line([[low, K_95 * low], [high, K_95 * high]]));
 }
 
-/// RMS of the predicted uncertainties and of the errors of sizes with like uncertainties, in bins of like numbers.
+/// The RMS of the predicted uncertainties and the RMS of the errors in each bin, in mm. A bin holds sizes with similar
+/// uncertainties, and all bins hold about the same number.
 fn bins(rows: &[&Claimed<'_>]) -> Vec<[f64; 2]> {
     let mut rows: Vec<[f64; 2]> = rows.iter().map(|claimed| [claimed.sigma_mm, claimed.error_mm]).collect();
     rows.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));

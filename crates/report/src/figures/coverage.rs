@@ -1,4 +1,4 @@
-//! Whether stated uncertainties hold the truth as often as they say.
+//! The figure `coverage`: whether intervals of the stated uncertainties hold the truth as often as they claim to.
 
 use model::{Level, Method, ResultRow};
 
@@ -21,13 +21,13 @@ const OBSERVED: Paint = Paint::line(Colour::Blue, 1.8);
 const INTERVAL: Paint = Paint::line(Colour::Blue, 1.2);
 const POINT: Look = Look::filled(Symbol::Diamond, Colour::Blue);
 
-/// 95 % of a Gaussian lie within so many SDs.
+/// Number of SDs within which 95 % of a Gaussian lie.
 pub(super) const K_95: f64 = 1.959_963_984_540_054;
-/// An uncertainty below a nanometre is none: its square may be zero.
+/// A smaller uncertainty (below a nanometre) counts as none, since its square may be zero.
 const LEAST_SIGMA_MM: f64 = 1e-6;
-/// Steps of the curve for one standard uncertainty.
+/// Number of steps of the curve per standard uncertainty.
 const STEPS: u32 = 20;
-/// The curve ends at so many standard uncertainties.
+/// Number of standard uncertainties at which the curve ends.
 const LAST: u32 = 3;
 
 /// An absolute error and the standard uncertainty that was predicted for it, both in mm.
@@ -37,7 +37,7 @@ pub(super) struct Claimed<'a> {
     pub(super) sigma_mm: f64,
 }
 
-/// Sizes with a truth and an uncertainty whose method claims to apply: by level (rows) and method (columns).
+/// The sizes that have a truth and an uncertainty, and no doubt about their method: by level (rows) and method (columns).
 pub(super) struct Claims<'a> {
     pub(super) levels: Vec<Level>,
     pub(super) methods: Vec<Method>,
@@ -80,7 +80,7 @@ impl<'a> Claims<'a> {
     }
 }
 
-/// What people call a level.
+/// The name of a level, for people.
 pub(super) const fn level_name(level: Level) -> &'static str {
     match level {
         Level::Frame => "single images",
@@ -89,7 +89,7 @@ pub(super) const fn level_name(level: Level) -> &'static str {
     }
 }
 
-/// Observed against claimed coverage of every method.
+/// Draws the observed and the claimed coverage of every method.
 pub(super) fn draw(results: &Results) -> Attempt {
     let claims = Claims::from_results(results);
     if claims.is_empty() {
@@ -126,7 +126,7 @@ fn curve() -> impl Iterator<Item = f64> {
     (0..=STEPS * LAST).map(|step| f64::from(step) / f64::from(STEPS))
 }
 
-/// Number of errors, in standard uncertainties, within k.
+/// Number of the errors within k, where errors are in units of their standard uncertainties.
 fn within(errors: &[f64], k: f64) -> usize {
     errors.iter().filter(|error| **error <= k).count()
 }
@@ -157,7 +157,7 @@ fn draw_coverage(drawing: &mut Drawing, panel: &Panel, errors: &[f64]) {
     }
 }
 
-/// Wilson's score interval of a share, 95 % (J. Am. Stat. Assoc. 22, 1927): `hits` of `n` > 0.
+/// The 95 % interval, from 0 to 1, of a share of `hits` in `n` > 0, by Wilson's score (J. Am. Stat. Assoc. 22, 1927).
 #[expect(clippy::cast_precision_loss, reason = "a count of sizes is far below 2^53")]
 pub(super) fn wilson(hits: usize, n: usize) -> [f64; 2] {
     let (p, n, z2) = (hits as f64 / n as f64, n as f64, K_95 * K_95);
@@ -166,7 +166,8 @@ pub(super) fn wilson(hits: usize, n: usize) -> [f64; 2] {
     [(middle - half).max(0.0), (middle + half).min(1.0)]
 }
 
-/// Share of a Gaussian within k > 0 SDs, erf(k / sqrt 2), to 1e-9: Simpson's rule with steps of 1/100 SD at most.
+/// The share of a Gaussian within k > 0 SDs, erf(k / sqrt 2), with an error below 1e-9, by Simpson's rule with steps of at
+/// most 1/100 SD.
 fn within_gaussian(k: f64) -> f64 {
     let density = |x: f64| (-0.5 * x * x).exp() * (2.0 / std::f64::consts::PI).sqrt();
     let steps = 400_u32;

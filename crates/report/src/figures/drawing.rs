@@ -1,22 +1,22 @@
-//! What a figure is made of: shapes and words at places on a page, and how they become SVG.
+//! The parts of a figure, which are shapes and words at places on a page, and their way to SVG.
 
 use askama::Template;
 
-/// A place or length on the page, in units of the `viewBox`, rounded so that it is short: 0.1 units are 0.02 mm when a
-/// figure is printed over two columns.
+/// A place or a length on the page as text, in units of the `viewBox`, rounded so that it is short. 0.1 units are 0.02 mm when
+/// a figure is printed over two columns.
 pub(super) fn short(value: f64) -> String {
     let text = format!("{value:.1}");
     let text = text.strip_suffix(".0").unwrap_or(&text);
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// A colour that is told apart from the others by people who see colours differently (after Okabe and Ito, Color Universal
-/// Design, 2008; the blue lighter), and has a contrast of at least 3 with both a white and a nearly black page (WCAG 2.2,
-/// 1.4.11).
+/// A colour. People who see colours differently can tell it apart from the others (after Okabe and Ito, Color Universal
+/// Design, 2008; the blue is lighter), and it has a contrast of at least 3 with both a white and a nearly black page (WCAG
+/// 2.2, 1.4.11).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Colour {
     None,
-    /// That of the text around the figure.
+    /// The colour of the text around the figure.
     Ink,
     Blue,
     Vermilion,
@@ -35,7 +35,7 @@ impl Colour {
     }
 }
 
-/// How shapes are painted.
+/// The colours and lines with which shapes are painted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Paint {
     pub(super) fill: Colour,
@@ -43,7 +43,7 @@ pub(super) struct Paint {
     pub(super) stroke: Colour,
     pub(super) stroke_width: f64,
     pub(super) stroke_opacity: f64,
-    /// Lengths of dashes and gaps; empty for a solid line.
+    /// Lengths of dashes and gaps, as in SVG; empty for a solid line.
     pub(super) dash: &'static str,
 }
 
@@ -65,15 +65,15 @@ impl Paint {
     }
 }
 
-/// One path.
+/// A path with an optional title.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Shape {
     pub(super) path: String,
-    /// What a pointer that rests on it shows.
+    /// The text that appears when a pointer rests on the shape.
     pub(super) title: Option<String>,
 }
 
-/// Which side of a text is at its place.
+/// The part of a text that is at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -91,7 +91,7 @@ impl Anchor {
     }
 }
 
-/// Words.
+/// A line of words at a place.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Text {
     pub(super) x: String,
@@ -99,10 +99,10 @@ pub(super) struct Text {
     pub(super) size: f64,
     pub(super) anchor: Anchor,
     pub(super) bold: bool,
-    /// Reads from below upwards.
+    /// Whether the line runs from below upwards.
     pub(super) turned: bool,
     pub(super) text: String,
-    /// The whole of a text that was shortened.
+    /// The whole text, where `text` is shortened.
     pub(super) full: Option<String>,
 }
 
@@ -127,7 +127,7 @@ impl Text {
         Self { size: 10.5, ..self }
     }
 
-    /// With the whole text where a shortened one stands.
+    /// The text with the whole one, for which it stands shortened.
     pub(super) fn standing_for(self, full: &str) -> Self {
         let full = (self.text != full).then(|| full.to_owned());
         Self { full, ..self }
@@ -141,7 +141,7 @@ pub(super) enum Item {
     Text(Text),
 }
 
-/// A page with its parts, the later above the earlier.
+/// A page with its parts. Later ones lie above earlier ones.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Drawing {
     pub(super) width: String,
@@ -169,7 +169,7 @@ impl Drawing {
     }
 }
 
-/// The SVG element.
+/// The template of the SVG element.
 #[derive(Debug, Template)]
 #[template(path = "figure.svg")]
 struct Svg<'a> {
@@ -180,7 +180,7 @@ struct Svg<'a> {
     drawing: &'a Drawing,
 }
 
-/// A drawing as SVG: for a page, or (`standalone`) as a file of its own with a white ground, a size and fonts.
+/// A drawing as SVG: for a page, or (`standalone`) for a file of its own, with a white ground, a size and fonts.
 pub(super) fn svg(drawing: &Drawing, [name, title, alt]: [&str; 3], standalone: bool) -> Result<String, askama::Error> {
     Svg { name, title, alt, standalone, drawing }.render()
 }
@@ -189,7 +189,7 @@ pub(super) fn svg(drawing: &Drawing, [name, title, alt]: [&str; 3], standalone: 
 mod tests {
     use super::*;
 
-    /// Relative luminance of WCAG 2.2.
+    /// Relative luminance of a colour, as WCAG 2.2 defines it.
     fn luminance(code: &str) -> f64 {
         let channel = |at: usize| {
             let value = f64::from(u8::from_str_radix(&code[at..at + 2], 16).expect("hexadecimal")) / 255.0;

@@ -1,4 +1,4 @@
-//! How many images of the study reach each step, and why the others do not.
+//! The figure `flow`: the numbers of images that reach each step of the selection, and the reasons why the others do not.
 
 use model::{Flow, FlowStep, FrameReason, FrameRow, StudyFlow};
 
@@ -12,6 +12,7 @@ use crate::tables::step_heading;
 
 const NAME: &str = "flow";
 const TITLE: &str = "Flow of images";
+/// The reason why the figures of images are left out.
 pub(super) const NO_LEDGER: &str = "the ledger of images, frames.parquet, was not read or has no image";
 
 const KEPT: Paint = Paint::area(Colour::Blue, 0.75);
@@ -24,10 +25,10 @@ const TOP: f64 = 34.0;
 const ROW: f64 = 30.0;
 const BAR: f64 = 17.0;
 const LINE: f64 = 14.0;
-/// Letters that fit below a bar.
+/// Number of letters that fit below a bar.
 const LETTERS: usize = 98;
 
-/// A bar: a step of the flow, and the reasons that keep images of the step before from it.
+/// A bar of the figure: a step of the flow, with the reasons for which images of the step before do not reach it.
 pub(super) struct Step {
     pub(super) heading: &'static str,
     pub(super) images: usize,
@@ -35,7 +36,7 @@ pub(super) struct Step {
     reasons: Vec<String>,
 }
 
-/// The flow of all images.
+/// Draws the flow of all images of the study.
 pub(super) fn draw(frames: &[FrameRow]) -> Attempt {
     if frames.is_empty() {
         return Attempt::left_out(NAME, TITLE, NO_LEDGER);
@@ -61,6 +62,7 @@ pub(super) fn draw(frames: &[FrameRow]) -> Attempt {
     Attempt::drawn(NAME, TITLE, [caption(frames.len(), sessions), alt(&steps)], drawing)
 }
 
+/// The steps of the flow in their order. The reasons of a step are in the order of the numbers of images, the greatest first.
 pub(super) fn steps(flow: &Flow) -> Vec<Step> {
     let mut before = flow.images_at(FlowStep::Found);
     let mut steps = Vec::new();
@@ -88,7 +90,7 @@ pub(super) fn steps(flow: &Flow) -> Vec<Step> {
     steps
 }
 
-/// The reasons of a step, on lines of no more than about `most` letters.
+/// The reasons of a step as lines of no more than about `most` letters.
 pub(super) fn lines(step: &Step, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for reason in &step.reasons {
@@ -125,7 +127,7 @@ fn draw_step(drawing: &mut Drawing, step: &Step, found: usize, top: f64) {
     }
 }
 
-/// A share of images in words: `< 1 %` is not 0.
+/// A share of images in words. A small share that is not 0 is `< 1 %`.
 #[expect(clippy::cast_precision_loss, reason = "a count of images is far below 2^53")]
 pub(super) fn percent(images: usize, of: usize) -> String {
     let share = 100.0 * images as f64 / of as f64;

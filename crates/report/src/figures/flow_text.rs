@@ -1,18 +1,20 @@
-//! The figure of the flow of images for a terminal: the same steps, words and shares.
+//! The figure of the flow of images for a terminal, with the same steps, words and shares.
 
 use super::flow::{Step, lines, percent, steps};
 use crate::parquet::Results;
 use model::FlowStep;
 
-/// Columns before the bars, and behind them.
+/// Number of columns before the bars.
 const HEADINGS: usize = 15;
+/// Number of columns behind the bars.
 const NUMBERS: usize = 18;
-/// Columns of the drawing where the terminal's are not known, and at most.
+/// Width of the drawing in columns where that of the terminal is not known.
 const WIDTH: usize = 80;
+/// Greatest width of the drawing in columns.
 const WIDEST: usize = 100;
 
-/// The flow of images as bars of characters, as wide as the terminal (`width` in columns) but for wide ones; none where the
-/// ledger was not read ([`Results::read_flow`]) or has no image.
+/// The flow of images as bars of characters, as wide as the terminal (`width` in columns) unless that is very wide; none where
+/// the ledger was not read ([`Results::read_flow`]) or has no image.
 #[must_use]
 pub fn flow_bars(results: &Results, width: Option<usize>) -> Option<String> {
     let flow = results.flow.as_ref()?.total();
@@ -32,7 +34,7 @@ pub fn flow_bars(results: &Results, width: Option<usize>) -> Option<String> {
 }
 
 fn bar(step: &Step, found: usize, width: usize) -> String {
-    // What is there is seen, however little it is.
+    // A step with any image has a bar, however short.
     let cells = |images: usize| (images * width).div_ceil(found).min(width);
     let (kept, reached) = (cells(step.images), cells(step.before));
     let (kept, lost) = if step.images < step.before && kept == reached && kept > 1 {

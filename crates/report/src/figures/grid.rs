@@ -1,4 +1,4 @@
-//! Small multiples: panels in rows and columns with shared axes.
+//! Small multiples: panels in rows and columns that share their axes.
 
 use super::drawing::{Anchor, Drawing, Text};
 use super::legend::{self, Entry};
@@ -14,7 +14,7 @@ const COLUMN_GAP: f64 = 14.0;
 const ROW_GAP: f64 = 26.0;
 const HEADING: f64 = 20.0;
 const BELOW: f64 = 42.0;
-/// A panel is no wider than this.
+/// Greatest width of a panel.
 const WIDEST: f64 = 400.0;
 
 /// An axis that panels share.
@@ -38,7 +38,7 @@ impl Axis {
     }
 }
 
-/// Panels in rows and columns: rows share `y`, all share `x`.
+/// Panels in rows and columns. The panels of a row share the axis of y, and all panels share that of x.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Grid {
     pub(super) columns: Vec<String>,
@@ -52,7 +52,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// The drawing with its axes, and its panels by row and column.
+    /// The drawing, with axes and legend, and its panels by row and column.
     #[expect(clippy::cast_precision_loss, reason = "a handful of rows")]
     pub(super) fn draw(&self) -> (Drawing, Vec<Vec<Panel>>) {
         let top = 6.0 + legend::height(&self.legend, PAGE - LEFT - RIGHT) + HEADING;
@@ -99,7 +99,7 @@ impl Grid {
     }
 }
 
-/// How many measurements a panel holds, in its upper right corner.
+/// Writes the number of measurements of a panel into its upper right corner.
 pub(super) fn draw_count(drawing: &mut Drawing, panel: &Panel, n: usize) {
     drawing.text(Text::new(panel.right(), panel.top() - 3.0, Anchor::End, format!("n = {n}")).small());
 }

@@ -1,10 +1,10 @@
-//! The meaning of the shapes of a figure, in words.
+//! The legend of a figure: the meaning of its shapes in words.
 
 use super::drawing::{Anchor, Drawing, Paint, Text, short};
 use super::marks::Look;
 use super::words::estimated_width;
 
-/// A sample of what is explained.
+/// A sample of the shapes that an entry explains.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Sample {
     Mark(Look),
@@ -12,7 +12,7 @@ pub(super) enum Sample {
     Area(Paint),
 }
 
-/// A sample and its words.
+/// An entry of a legend: a sample and its words.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Entry {
     pub(super) sample: Sample,
@@ -34,13 +34,13 @@ const SAMPLE: f64 = 26.0;
 /// Height of a line of the legend.
 const LINE: f64 = 17.0;
 
-/// Height of a legend of this width.
+/// Height of a legend of this width, in units of the page.
 #[expect(clippy::cast_precision_loss, reason = "a handful of lines")]
 pub(super) fn height(entries: &[Entry], width: f64) -> f64 {
     LINE * lines(entries, width).len() as f64
 }
 
-/// Draws the legend from its upper left corner.
+/// Draws the legend with its upper left corner at this place.
 #[expect(clippy::cast_precision_loss, reason = "a handful of lines")]
 pub(super) fn draw(drawing: &mut Drawing, entries: &[Entry], [left, top]: [f64; 2], width: f64) {
     for (index, line) in lines(entries, width).into_iter().enumerate() {

@@ -1,16 +1,16 @@
-//! Marks: the shapes that stand for measurements.
+//! Marks of a figure: the shapes that stand for measurements.
 
 use std::collections::BTreeSet;
 
 use super::drawing::{Colour, Drawing, Paint, Shape, short};
 
-/// A figure has no more marks than this, or it grows beyond what a page takes; of more, those that lie on others are
-/// left out.
+/// Greatest number of marks of a figure, so that a page can hold it. Where there are more, those that lie on others are left
+/// out.
 pub(super) const MOST_MARKS: usize = 3000;
-/// A figure has no more marks that a pointer can ask than this.
+/// Greatest number of marks of a figure that have a title.
 pub(super) const MOST_TITLES: usize = 400;
 
-/// The outline of a mark. Told apart without colour.
+/// The outline of a mark. All of them can be told apart without colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Symbol {
     Circle,
@@ -18,14 +18,14 @@ pub(super) enum Symbol {
     Square,
     Diamond,
     Cross,
-    /// Stands at the upper edge for a value above it.
+    /// It stands at the upper edge for a value above that edge.
     Above,
-    /// Stands at the lower edge for a value below it.
+    /// It stands at the lower edge for a value below that edge.
     Below,
 }
 
 impl Symbol {
-    /// The path of the symbol about a place.
+    /// The path of the symbol around a place.
     pub(super) fn path(self, x: f64, y: f64) -> String {
         let from = |dx: f64, dy: f64| format!("M{},{}", short(x + dx), short(y + dy));
         match self {
@@ -40,7 +40,7 @@ impl Symbol {
     }
 }
 
-/// What a series of marks looks like.
+/// The symbol and paint of a series of marks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Look {
     pub(super) symbol: Symbol,
@@ -48,13 +48,13 @@ pub(super) struct Look {
 }
 
 impl Look {
-    /// A mark with its inside painted.
+    /// A look with the inside of the symbol painted.
     pub(super) const fn filled(symbol: Symbol, colour: Colour) -> Self {
         let line = Paint::line(colour, 1.0);
         Self { symbol, paint: Paint { fill: colour, fill_opacity: 0.55, ..line } }
     }
 
-    /// A mark with an outline alone.
+    /// A look with the outline of the symbol alone.
     pub(super) const fn hollow(symbol: Symbol, colour: Colour) -> Self {
         Self { symbol, paint: Paint::line(colour, 1.0) }
     }
@@ -66,13 +66,13 @@ pub(super) struct Mark<T> {
     pub(super) x: f64,
     pub(super) y: f64,
     pub(super) look: Look,
-    /// How much the reader would miss it: the marks with the largest have titles, and stay where others lie on them.
+    /// The importance of the mark. Those with the largest weights have titles, and stay where others lie on them.
     pub(super) weight: f64,
-    /// What it stands for.
+    /// The measurement that the mark stands for.
     pub(super) of: T,
 }
 
-/// How many marks of a figure there were, and how many of them were drawn.
+/// The number of marks of a figure (`of`), and of those that were drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Drawn {
     pub(super) of: usize,
@@ -85,7 +85,7 @@ impl Drawn {
         self.marks += other.marks;
     }
 
-    /// A sentence where marks were left out.
+    /// A sentence on the marks that were left out; empty where there are none.
     pub(super) fn remark(self) -> String {
         if self.marks == self.of {
             return String::new();
@@ -95,7 +95,7 @@ impl Drawn {
     }
 }
 
-/// Draws marks, those of one look together; at most `most`, of which `titles` have a title.
+/// Draws at most `most` marks, of which `titles` have a title. Those of one look are drawn together.
 pub(super) fn draw<T>(
     drawing: &mut Drawing,
     marks: Vec<Mark<T>>,
@@ -130,7 +130,7 @@ pub(super) fn draw<T>(
     drawn
 }
 
-/// At most about `most` marks: one for each cell of a lattice that is as fine as that allows.
+/// At most about `most` of the marks: one for each cell of a lattice that is as fine as that number allows.
 fn thinned<T>(mut marks: Vec<Mark<T>>, most: usize) -> Vec<Mark<T>> {
     if marks.len() <= most {
         return marks;
@@ -151,7 +151,7 @@ fn thinned<T>(mut marks: Vec<Mark<T>>, most: usize) -> Vec<Mark<T>> {
     }
 }
 
-/// The first mark of every cell and symbol.
+/// The indices of the first mark of every symbol in every cell.
 #[expect(clippy::cast_possible_truncation, reason = "places on a page")]
 fn in_cells<T>(marks: &[Mark<T>], cell: f64) -> BTreeSet<usize> {
     let mut cells = BTreeSet::new();

@@ -1,9 +1,9 @@
-//! Figures from the results alone, as SVG.
+//! Figures as SVG, drawn from the results alone.
 //!
-//! A figure is a [`drawing`] (shapes and words at places on a page), made in a file of its own from rows ([`sample`]) with
-//! the help of [`scale`], [`panel`], [`grid`], [`marks`] and [`legend`], and written by one template
-//! (templates/figure.svg), which escapes every word. No figure has styles of its own: colours are attributes, text has
-//! the colour and the font of the page around it. What each shows, and how its statistics are defined: docs/figures.md.
+//! A figure is a [`drawing`] (shapes and words at places on a page). A module of its own draws it from rows ([`sample`]) with the
+//! help of [`scale`], [`panel`], [`grid`], [`marks`] and [`legend`]. One template (templates/figure.svg) writes all figures, and
+//! escapes every word. No figure has styles of its own: colours are attributes, and text has the colour and the font of the page
+//! around it. docs/figures.md describes each figure and defines its statistics.
 
 mod bland_altman;
 mod by_setup;
@@ -35,10 +35,10 @@ use drawing::Drawing;
 pub use flow_text::flow_bars;
 pub use write::write_figures;
 
-/// Why figures of errors are not there.
+/// The reason why the figures of errors are left out.
 const NO_TRUTH: &str = "no size has a true size to compare with";
 
-/// A figure that could not be made: its template failed, which only a failing writer can cause.
+/// Why a figure could not be made: its template failed, which only a failing writer can cause.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot put a figure together")]
 pub struct FigureError(#[from] askama::Error);
@@ -46,13 +46,13 @@ pub struct FigureError(#[from] askama::Error);
 /// The figures of a run, and those for which it has no data.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Figures {
-    /// Those that could be drawn, in the order in which a report shows them.
+    /// The figures that could be drawn, in the order in which a report shows them.
     pub drawn: Vec<Figure>,
-    /// Those that could not.
+    /// The figures for which there are no data.
     pub left_out: Vec<FigureLeftOut>,
     /// The sentence that the study wants every report to carry.
     pub statement: Option<String>,
-    /// The drawn ones as files of their own.
+    /// The drawn figures as the content of files of their own.
     standalone: Vec<String>,
 }
 
@@ -63,18 +63,18 @@ pub struct FigureLeftOut {
     pub name: &'static str,
     /// Heading.
     pub title: &'static str,
-    /// What is missing, as a part of a sentence.
+    /// The data that are missing, as a part of a sentence.
     pub reason: &'static str,
 }
 
-/// What became of a figure.
+/// The result of drawing a figure.
 enum Attempt {
     Drawn { name: &'static str, title: &'static str, captions: [String; 2], drawing: Drawing },
     LeftOut(FigureLeftOut),
 }
 
 impl Attempt {
-    /// With its caption and its words for those who do not see it.
+    /// A figure that was drawn. `captions` are the caption and the alternative text.
     const fn drawn(name: &'static str, title: &'static str, captions: [String; 2], drawing: Drawing) -> Self {
         Self::Drawn { name, title, captions, drawing }
     }

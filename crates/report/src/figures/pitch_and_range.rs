@@ -1,4 +1,4 @@
-//! Pitch and range over time, session by session (Fig. 2 of the paper).
+//! The figure `pitch_and_range`: pitch and range over time, session by session (Fig. 2 of the paper).
 
 use std::collections::BTreeMap;
 
@@ -20,9 +20,9 @@ use crate::parquet::Results;
 const NAME: &str = "pitch_and_range";
 const TITLE: &str = "Pitch and range over time";
 
-/// Sessions that have panels.
+/// Greatest number of sessions that have panels.
 const MOST_SESSIONS: usize = 12;
-/// Images of a session that are drawn one by one; of more, their smallest and largest values.
+/// Greatest number of images of a session that are drawn one by one. Of more, the smallest and largest values are drawn.
 const MOST_IMAGES: usize = 250;
 
 const SELECTED: Look = Look::filled(Symbol::Circle, Colour::Blue);
@@ -47,7 +47,7 @@ struct Shared {
     width: f64,
 }
 
-/// Pitch and range of every image over its time.
+/// Draws pitch and range of every image over its time.
 pub(super) fn draw(results: &Results, frames: &[FrameRow]) -> Attempt {
     let mut sessions: BTreeMap<&str, Vec<&FrameRow>> = BTreeMap::new();
     for frame in frames {
@@ -153,7 +153,7 @@ fn draw_heading(drawing: &mut Drawing, (name, frames): (&str, &[&FrameRow]), pan
     drawing.text(Text::new(panel.right(), panel.top() - 6.0, Anchor::End, right).small());
 }
 
-/// One mark for each image, or the extremes of many; images without the value stand at the lower edge.
+/// Draws one mark for each image, or the extremes of many. Images without a value stand at the lower edge.
 fn draw_values(drawing: &mut Drawing, panel: &Panel, frames: &[&FrameRow], value: impl Fn(&FrameRow) -> Option<f64>) {
     let timed = || frames.iter().filter_map(|frame| Some((*frame, panel.x.place(posix_s(frame)?))));
     if frames.len() > MOST_IMAGES {
@@ -177,7 +177,7 @@ fn draw_values(drawing: &mut Drawing, panel: &Panel, frames: &[&FrameRow], value
         let weight = if is_selected(frame) { 1.0 } else { 0.0 };
         Mark { x, y: place.unwrap_or_else(|| panel.bottom() - 4.0), look, weight, of: frame }
     };
-    // Twice the panels of one session hold no more marks than the figure may have.
+    // With two panels for each session there are then no more marks than the figure may have.
     let titles = marks::MOST_TITLES / (2 * MOST_SESSIONS);
     marks::draw(drawing, timed().map(mark).collect(), [MOST_IMAGES, titles], |frame| title(frame));
 }

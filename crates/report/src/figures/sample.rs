@@ -1,4 +1,4 @@
-//! Which rows of the results a figure is made from, and in which panel each stands.
+//! The rows of the results that a figure is drawn from, sorted by the panel in which each stands.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,7 +9,8 @@ use super::marks::{Look, Symbol};
 use super::scale::is_drawable;
 use super::words::{named, signed};
 
-/// What was measured: a height, or across (diameter, width and length together, as in table `error_by_pitch`).
+/// A direction in which containers of a kind are measured: their height, or across (diameter, width and length together, as in
+/// the table `error_by_pitch`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Dimension {
     pub(super) kind: Kind,
@@ -21,7 +22,7 @@ impl Dimension {
         Self { kind: row.kind, is_height: row.quantity == Quantity::Height }
     }
 
-    /// `bowl, height`.
+    /// Its name, such as `bowl, height`.
     pub(super) fn name(self) -> String {
         format!("{}, {}", self.kind, if self.is_height { "height" } else { "across" })
     }
@@ -42,7 +43,7 @@ pub(super) const fn look(kind: Kind, filled: bool) -> Look {
 pub(super) struct Erring<'a> {
     pub(super) row: &'a ResultRow,
     pub(super) truth_mm: f64,
-    /// Predicted less true.
+    /// The predicted size less the true one.
     pub(super) error_mm: f64,
 }
 
@@ -51,7 +52,7 @@ impl Erring<'_> {
         100.0 * self.error_mm / self.truth_mm
     }
 
-    /// What a pointer that rests on its mark shows.
+    /// The text that appears when a pointer rests on its mark.
     pub(super) fn title(&self) -> String {
         let row = self.row;
         let image = row.image.as_deref().map(|image| format!(", {}", named(image))).unwrap_or_default();
@@ -78,7 +79,7 @@ pub(super) fn erring(rows: &[ResultRow], level: Level) -> impl Iterator<Item = E
     })
 }
 
-/// Rows by what was measured and by method.
+/// Rows, sorted by dimension and method.
 pub(super) struct Sorted<'a> {
     pub(super) dimensions: Vec<Dimension>,
     pub(super) methods: Vec<Method>,
@@ -108,7 +109,7 @@ impl<'a> Sorted<'a> {
         self.cells.get(&(dimension, method)).map_or(&[], Vec::as_slice)
     }
 
-    /// All rows of what was measured, whatever the method.
+    /// All rows of a dimension, by any method.
     pub(super) fn of_dimension(&self, dimension: Dimension) -> impl Iterator<Item = &Erring<'a>> {
         self.cells.iter().filter(move |((of, _), _)| *of == dimension).flat_map(|(_, rows)| rows)
     }
@@ -127,8 +128,8 @@ impl<'a> Sorted<'a> {
     }
 }
 
-/// A domain that holds the values; where few of many lie far out (beyond four times the 98 % quantile of their absolute
-/// values), one that leaves these out, so that the others can be told apart.
+/// A domain that holds the values. Where few of many lie far out (beyond four times the 98 % quantile of their absolute
+/// values), it leaves these out, so that the others can be told apart. None where there are no values.
 pub(super) fn bulk(values: &[f64]) -> Option<[f64; 2]> {
     let absolute: Vec<f64> = values.iter().map(|value| value.abs()).collect();
     let largest = absolute.iter().copied().fold(0.0, f64::max);

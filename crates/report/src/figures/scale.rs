@@ -1,18 +1,18 @@
-//! From values to places on the page, and the ticks of axes.
+//! Scales, which turn values into places on the page, and the ticks of axes.
 
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
 use super::words::number;
 
-/// A value at an axis, with what stands beside it.
+/// A value at an axis, with its label.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tick {
     pub(super) value: f64,
     pub(super) label: String,
 }
 
-/// Values of a domain to places of a range.
+/// A map from the values of a domain to the places of a range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale {
     domain: [f64; 2],
@@ -21,17 +21,17 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// Both ends of the domain are finite, and differ.
+    /// A linear scale. Both ends of the domain must be finite, and differ.
     pub(super) fn linear(domain: [f64; 2], range: [f64; 2]) -> Self {
         Self { domain, range, logarithmic: false }
     }
 
-    /// The same for positive values.
+    /// A logarithmic scale. Both ends of the domain must be positive and finite, and differ.
     pub(super) fn logarithmic(domain: [f64; 2], range: [f64; 2]) -> Self {
         Self { domain: domain.map(f64::log10), range, logarithmic: true }
     }
 
-    /// The place of a value; beyond the domain, its nearer end.
+    /// The place of a value. A value beyond the domain has the place of the nearer end.
     pub(super) fn place(&self, value: f64) -> f64 {
         let value = if self.logarithmic { value.max(f64::MIN_POSITIVE).log10() } else { value };
         let [low, high] = self.domain;
@@ -54,7 +54,7 @@ impl Scale {
         if self.logarithmic {
             return log_ticks(self.domain);
         }
-        // One tick does not make a scale: a finer step where round values are few.
+        // One tick does not make a scale, so the step is finer where round values are few.
         let all = (most..most + 4).map(|most| linear_ticks(self.domain, most));
         all.reduce(|found, finer| if found.len() < 3 { finer } else { found }).unwrap_or_default()
     }
@@ -79,12 +79,13 @@ fn linear_ticks([low, high]: [f64; 2], most: usize) -> Vec<Tick> {
     values.map(|value| Tick { value, label: label(value, decimals) }).collect()
 }
 
-/// Large numbers in powers of ten: there is no room for their zeros.
+/// The label of a tick. Large numbers have powers of ten, since there is no room for their zeros.
 fn label(value: f64, decimals: usize) -> String {
     if value.abs() >= 1e6 { format!("{value:e}").replace('-', "\u{2212}") } else { number(value, decimals) }
 }
 
-/// 1, 2 and 5 times powers of ten over a short domain, powers of ten alone over a long one.
+/// Ticks at 1, 2 and 5 times powers of ten over a short domain, and at powers of ten alone over a long one. The ends of the
+/// domain are logarithms.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "decades of millimetres")]
 fn log_ticks([low, high]: [f64; 2]) -> Vec<Tick> {
     let (first, last) = (low.floor() as i32, high.ceil() as i32);
@@ -103,7 +104,7 @@ fn log_ticks([low, high]: [f64; 2]) -> Vec<Tick> {
     ticks
 }
 
-/// Steps of time that people read, in seconds.
+/// Steps of time that people read easily, in seconds.
 const TIME_STEPS_S: [f64; 23] = [
     1.0,
     2.0,
@@ -147,15 +148,15 @@ pub(super) fn time_ticks([low, high]: [f64; 2], most: usize) -> Vec<Tick> {
     values.map(|value| Tick { value, label: time(value, form) }).collect()
 }
 
-/// A time in UTC.
+/// A time in UTC as text of the form `form` (strftime).
 #[expect(clippy::cast_possible_truncation, reason = "seconds of a time that jiff checks")]
 pub(super) fn time(posix_s: f64, form: &str) -> String {
     let stamp = Timestamp::from_second(posix_s.round() as i64).map(|stamp| stamp.to_zoned(TimeZone::UTC));
     stamp.map_or_else(|_| String::new(), |zoned| zoned.strftime(form).to_string())
 }
 
-/// The smallest interval that holds the values and `margin` (a share of it) on either side; of a single value, some room
-/// around it. None of no values.
+/// The smallest interval that holds the values and, on either side, `margin` times their extent. A single value has some room
+/// around it. None where there are no values.
 pub(super) fn padded(values: impl IntoIterator<Item = f64>, margin: f64) -> Option<[f64; 2]> {
     let [low, high] = extremes(values)?;
     let span = high - low;
@@ -163,7 +164,7 @@ pub(super) fn padded(values: impl IntoIterator<Item = f64>, margin: f64) -> Opti
     Some([low - room, high + room])
 }
 
-/// The smallest and the largest of the values; none of no values.
+/// The smallest and the largest of the values; none where there are no values.
 pub(super) fn extremes(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     let ends = |ends: Option<[f64; 2]>, value: f64| match ends {
         None => Some([value, value]),
@@ -172,7 +173,7 @@ pub(super) fn extremes(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]
     values.into_iter().filter(|value| is_drawable(*value)).fold(None, ends)
 }
 
-/// Numbers that a figure can hold: finite, and small enough that differences keep their digits.
+/// Whether a figure can hold the number: it is finite, and small enough that differences keep their digits.
 pub(super) fn is_drawable(value: f64) -> bool {
     value.is_finite() && value.abs() <= 1e12
 }

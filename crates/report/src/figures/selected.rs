@@ -1,4 +1,4 @@
-//! Which share of each session's images is selected.
+//! The figure `selected_share`: the share of each session's images that is selected.
 
 use model::{FlowStep, FrameRow, StudyFlow};
 
@@ -13,12 +13,12 @@ use super::words::{counted, fitted, named};
 const NAME: &str = "selected_share";
 const TITLE: &str = "Images selected, by session";
 
-/// Up to so many sessions have a bar of their own.
+/// Greatest number of sessions for which each has a bar of its own.
 const MOST_BARS: usize = 40;
 const BAR: Paint = Paint::area(Colour::Blue, 0.75);
 const BAR_HEIGHT: f64 = 16.0;
 const NAMES: f64 = 190.0;
-/// Classes of 5 % where there are more sessions.
+/// Number of classes of the histogram that stands for more sessions; each is 5 % wide.
 const CLASSES: usize = 20;
 
 struct Session {
@@ -28,7 +28,7 @@ struct Session {
     share_pct: f64,
 }
 
-/// A bar for each session, or how many sessions have which share.
+/// Draws a bar for each session, or a histogram of the shares where there are many sessions.
 pub(super) fn draw(frames: &[FrameRow]) -> Attempt {
     if frames.is_empty() {
         return Attempt::left_out(NAME, TITLE, NO_LEDGER);

@@ -1,4 +1,4 @@
-//! What figures need to know of the settings of a run.
+//! The settings of a run that figures show.
 
 use crate::parquet::Results;
 
@@ -14,7 +14,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// As the run resolved it; none where its metadata do not say.
+    /// The window as the run resolved it; none where the metadata of the run do not hold it.
     pub(super) fn from_results(results: &Results) -> Option<Self> {
         let select = results.metadata.settings.get("study")?.get("select")?;
         let number = |key: &str| select.get(key)?.as_f64().filter(|number| (0.0..=90.0).contains(number));
@@ -22,12 +22,12 @@ impl Window {
         Some(Self { low_deg: target - tolerance, high_deg: target + tolerance })
     }
 
-    /// `47.5 to 62.5 deg`.
+    /// The window in words, such as `47.5 to 62.5 deg`.
     pub(super) fn name(self) -> String {
         format!("{} to {} deg", number(self.low_deg, 1), number(self.high_deg, 1))
     }
 
-    /// Its borders in a panel whose `x` is pitch.
+    /// Draws the borders in a panel whose x is pitch.
     pub(super) fn draw_upright(self, drawing: &mut Drawing, panel: &Panel, paint: Paint) {
         panel.upright(drawing, "window", paint, self.low_deg);
         panel.upright(drawing, "window", paint, self.high_deg);

@@ -1,4 +1,4 @@
-//! Sizes with their intervals, object by object.
+//! The figure `sizes`: fused sizes with their intervals, object by object.
 
 use std::collections::BTreeMap;
 
@@ -19,11 +19,12 @@ use crate::parquet::Results;
 const NAME: &str = "sizes";
 const TITLE: &str = "Sizes with their uncertainties";
 
-/// Panels, and sizes in a panel, at most.
+/// Greatest number of panels.
 const MOST_PANELS: usize = 24;
+/// Greatest number of sizes in a panel.
 const MOST_ROWS: usize = 16;
 
-/// Room for names, at most.
+/// Greatest width of names, in units of the page.
 const NAMES: f64 = 146.0;
 const GAP: f64 = 16.0;
 const COLUMN: f64 = 0.5 * (PAGE - GAP);
@@ -37,7 +38,7 @@ const TRUTH: Paint = Paint::line(Colour::Ink, 1.2).dashed("6 3");
 struct Size<'a> {
     row: &'a ResultRow,
     predicted_mm: f64,
-    /// Half of the interval; none without an uncertainty.
+    /// Half of the width of the 95 % interval; none without an uncertainty.
     half_mm: Option<f64>,
 }
 
@@ -48,10 +49,10 @@ struct Block<'a> {
     sizes: Vec<Size<'a>>,
 }
 
-/// Fused sizes of every object and quantity by one method, with 95 % intervals.
+/// Draws the fused sizes of every object and quantity by one method, with 95 % intervals.
 pub(super) fn draw(results: &Results) -> Attempt {
     let fused = || results.rows.iter().filter(|row| row.level == Level::Fused && row.predicted_mm.is_some());
-    // The method that the program would take, else the first that there is.
+    // The method is the program's own choice (best), or else the first that there is.
     let method =
         fused().map(|row| row.method).max_by_key(|method| (*method == Method::Best, std::cmp::Reverse(*method)));
     let Some(method) = method else { return Attempt::left_out(NAME, TITLE, "no size is fused from selected images") };
@@ -84,14 +85,14 @@ fn blocks<'a>(rows: impl Iterator<Item = &'a ResultRow>) -> Vec<Block<'a>> {
     blocks.into_iter().map(block).collect()
 }
 
-/// Width of the longest name.
+/// Width of the longest name, in units of the page.
 fn names_width(blocks: &[Block<'_>]) -> f64 {
     let names = blocks.iter().flat_map(|block| block.shown().iter().map(|size| block.name(size.row)));
     names.map(|name| estimated_width(&name, 10.5) + 12.0).fold(60.0, f64::max).min(NAMES)
 }
 
 impl Block<'_> {
-    /// The session, and the rater where the block has several.
+    /// The name of a size: its session, and its rater where the block has several.
     fn name(&self, row: &ResultRow) -> String {
         let several = self.shown().iter().any(|size| size.row.rater != self.sizes[0].row.rater);
         if several { format!("{}, {}", named(&row.session), named(&row.rater)) } else { named(&row.session) }
@@ -101,14 +102,14 @@ impl Block<'_> {
         &self.sizes[..self.sizes.len().min(MOST_ROWS)]
     }
 
-    /// Height of its panel.
+    /// Height of the block's panel, in units of the page.
     #[expect(clippy::cast_precision_loss, reason = "a handful of lines")]
     fn height(&self) -> f64 {
         LINE * self.shown().len() as f64 + 6.0
     }
 }
 
-/// Upper and lower edge of every panel, two beside each other.
+/// Upper and lower edge of every panel. Two panels stand beside each other.
 fn places(blocks: &[Block<'_>], top: f64) -> Vec<(f64, f64)> {
     let mut upper = top;
     let mut places = Vec::new();

@@ -1,7 +1,7 @@
-//! Words on figures: names that came from people made safe and short, and numbers as they are printed.
+//! Words on figures: names from people, made safe and short, and numbers as text.
 
-/// Text that XML can hold and that stays in its place: no control characters, none that turn the direction of what
-/// follows, none that XML forbids.
+/// The text without characters that XML forbids, control characters, and those that turn the direction of the text after them.
+/// U+FFFD stands in their place.
 pub(super) fn clean(text: &str) -> String {
     let is_bad = |character: char| {
         character.is_control()
@@ -16,8 +16,8 @@ pub(super) fn named(name: &str) -> String {
     if name.trim().is_empty() { "(no name)".to_owned() } else { clean(name) }
 }
 
-/// A name that takes no more than `width` units at `size`: what is too much goes from its middle, since names differ at
-/// both ends.
+/// The name, shortened so that it takes no more than `width` units at the size `size`. Letters are left out in the middle, since
+/// names differ at both ends.
 pub(super) fn fitted(name: &str, width: f64, size: f64) -> String {
     let name = named(name);
     if estimated_width(&name, size) <= width {
@@ -36,7 +36,7 @@ pub(super) fn fitted(name: &str, width: f64, size: f64) -> String {
     }
 }
 
-/// Width of a text in a font that we do not know: on the safe side for the common ones.
+/// Estimated width of a text at the size `size`. The font is not known; the estimate is no less than the width in common fonts.
 pub(super) fn estimated_width(text: &str, size: f64) -> f64 {
     let em = |character: char| match character {
         'i' | 'j' | 'l' | 't' | 'f' | 'r' | '.' | ',' | ':' | ';' | '\'' | '|' | '(' | ')' | ' ' => 0.38,
@@ -48,26 +48,26 @@ pub(super) fn estimated_width(text: &str, size: f64) -> f64 {
     text.chars().map(em).sum::<f64>() * size
 }
 
-/// A number with a minus sign of its own width, and no minus before zero.
+/// A number as text, with a true minus sign, but none before zero.
 pub(super) fn number(value: f64, decimals: usize) -> String {
     let text = format!("{:.decimals$}", value.abs());
     let is_zero = !text.bytes().any(|byte| byte.is_ascii_digit() && byte != b'0');
     if value < 0.0 && !is_zero { format!("\u{2212}{text}") } else { text }
 }
 
-/// The same with a plus sign.
+/// A number as text, with a plus or a true minus sign, but none before zero.
 pub(super) fn signed(value: f64, decimals: usize) -> String {
     let text = number(value, decimals);
     let is_zero = !text.bytes().any(|byte| byte.is_ascii_digit() && byte != b'0');
     if value > 0.0 && !is_zero { format!("+{text}") } else { text }
 }
 
-/// `1 image`, `2 images`.
+/// A number of things as `1 image` or `2 images`.
 pub(super) fn counted(n: usize, one: &str) -> String {
     if n == 1 { format!("{n} {one}") } else { format!("{n} {one}s") }
 }
 
-/// `a`, `a and b`, `a, b and c`.
+/// Words as a list: `a`, `a and b`, `a, b and c`.
 pub(super) fn listed(words: &[String]) -> String {
     match words {
         [] => String::new(),

@@ -1,4 +1,4 @@
-//! Figures as files.
+//! Writes figures as files.
 
 use std::io;
 use std::path::Path;
@@ -8,12 +8,12 @@ use crate::atomic;
 use crate::render::markdown_text;
 use crate::write_dir::WriteError;
 
-/// Writes every figure as a file of its own, `DIR/figures/NAME.svg`, on white ground, and `DIR/figures/figures.md` with their captions
-/// and what was left out. Makes the folder if need be; every file is written aside and renamed. A file that an earlier
-/// run wrote of a figure that is now left out is removed.
+/// Writes every figure as a file of its own, `DIR/figures/NAME.svg`, on white ground, and `DIR/figures/figures.md` with their
+/// captions and the list of the figures that were left out. Makes the folder where there is none; every file is written aside
+/// and renamed. Removes the file of an earlier run for a figure that is now left out.
 ///
 /// # Errors
-/// [`WriteError::Folder`] and [`WriteError::File`].
+/// [`WriteError::Folder`], [`WriteError::File`] and [`WriteError::OldFigure`].
 pub fn write_figures(figures: &Figures, dir: &Path) -> Result<(), WriteError> {
     let folder = dir.join("figures");
     std::fs::create_dir_all(&folder).map_err(|source| WriteError::Folder { path: folder.clone(), source })?;

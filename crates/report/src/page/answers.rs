@@ -1,4 +1,4 @@
-//! The rows that answer what a study asks: one size per object and rater, by one method.
+//! The rows that answer the question of a study: one size per object and rater, by one method.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,8 @@ use model::{Kind, Level, Method, Quantity, ResultRow, median};
 use crate::table::{Cell, Column, Format, RowKind, Table, TableRow};
 use crate::tables::row_error_pct;
 
-/// Fused sizes, else those of selected images; by method best, else by the one that has most.
+/// The fused sizes, or where there are none, those of selected images; by the method best, or where it is missing, by the method
+/// that has most sizes.
 pub(super) struct Answers<'a> {
     pub(super) method: Method,
     pub(super) level: Level,
@@ -16,7 +17,7 @@ pub(super) struct Answers<'a> {
 }
 
 impl<'a> Answers<'a> {
-    /// None without a size.
+    /// The answers among all rows; none where no row has a size.
     pub(super) fn from_rows(rows: &'a [ResultRow]) -> Option<Self> {
         let measured = |level| {
             let counts = move |row: &&ResultRow| row.level == level && row.selected && row.predicted_mm.is_some();
@@ -31,7 +32,7 @@ impl<'a> Answers<'a> {
         Some(Self { method, level, rows: by_method.remove(&method)? })
     }
 
-    /// What one of them is called.
+    /// The words for one of these sizes.
     pub(super) fn name(&self) -> &'static str {
         if self.level == Level::Fused { "fused size" } else { "size of a selected image" }
     }
@@ -40,12 +41,12 @@ impl<'a> Answers<'a> {
         errors_pct(&self.rows)
     }
 
-    /// Of standard uncertainties in per cent of their size.
+    /// The median of the standard uncertainties, each in per cent of its size.
     pub(super) fn median_sigma_pct(&self) -> Option<f64> {
         median_sigma_pct(&self.rows)
     }
 
-    /// By kind of container and quantity.
+    /// A table of the answers by kind of container and quantity.
     pub(super) fn table(&self) -> Table {
         let mut groups: BTreeMap<(Kind, Quantity), Vec<&ResultRow>> = BTreeMap::new();
         self.rows.iter().for_each(|row| groups.entry((row.kind, row.quantity)).or_default().push(row));
@@ -96,7 +97,7 @@ fn median_sigma_pct(rows: &[&ResultRow]) -> Option<f64> {
     (!sigmas.is_empty()).then(|| median(sigmas))
 }
 
-/// Of an absolute error in per cent.
+/// The median of the absolute errors, in per cent.
 pub(super) fn median_absolute(errors: &[f64]) -> f64 {
     median(errors.iter().map(|error| error.abs()).collect())
 }

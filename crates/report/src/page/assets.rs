@@ -1,4 +1,4 @@
-//! Style and script, put into the program when it is built.
+//! Style and script of the page, which are part of the program.
 
 /// The style sheet.
 pub(super) const STYLE: &str = concat!(
@@ -9,7 +9,7 @@ pub(super) const STYLE: &str = concat!(
     include_str!("../../assets/style/print.css"),
 );
 
-/// The script: its files in one scope, the last of which starts it.
+/// The script: all of its files in one scope. The last one starts it.
 pub(super) const SCRIPT: &str = concat!(
     "(() => {\n\"use strict\";\n",
     include_str!("../../assets/script/dom.js"),

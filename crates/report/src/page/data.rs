@@ -1,4 +1,4 @@
-//! Rows for the script: compact JSON.
+//! Rows for the script, as compact JSON.
 
 use std::collections::HashMap;
 
@@ -8,9 +8,9 @@ use serde::Serialize;
 #[derive(Debug, Default, Serialize)]
 pub(super) struct Grid {
     pub(super) columns: Vec<GridColumn>,
-    /// Words that cells name by their place here.
+    /// The words that cells of text name by their index here.
     pub(super) words: Vec<String>,
-    /// One cell per column.
+    /// The rows, each with one cell per column.
     pub(super) rows: Vec<Vec<Datum>>,
 }
 
@@ -19,32 +19,32 @@ pub(super) struct Grid {
 pub(super) struct GridColumn {
     pub(super) name: String,
     pub(super) heading: String,
-    /// What it means, for a person.
+    /// Its meaning, for people.
     pub(super) meaning: &'static str,
     pub(super) kind: GridKind,
-    /// Of numbers.
+    /// Number of decimals of its numbers.
     pub(super) decimals: usize,
-    /// Whether only the view of a single row shows it.
+    /// Whether only the view of a single row shows the column.
     pub(super) detail: bool,
 }
 
-/// What the cells of a column are.
+/// The kind of the cells of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum GridKind {
-    /// Places in [`Grid::words`].
+    /// Indices of [`Grid::words`].
     Text,
     /// Numbers, or text that begins with one.
     Number,
-    /// A number that is sorted by its magnitude: an error.
+    /// Numbers that are sorted by their magnitude, such as errors.
     Magnitude,
     /// Milliseconds since 1970 UTC.
     Time,
-    /// 0 or 1.
+    /// Either 0 or 1.
     Flag,
 }
 
-/// A cell.
+/// A cell of a [`Grid`].
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
 pub(super) enum Datum {
@@ -55,7 +55,7 @@ pub(super) enum Datum {
     Nothing(()),
 }
 
-/// Words, each kept once, numbered in the order in which they came.
+/// A list of words, each of which is kept once, numbered in the order in which they came.
 #[derive(Debug, Default)]
 pub(super) struct Words {
     places: HashMap<String, usize>,
@@ -63,6 +63,7 @@ pub(super) struct Words {
 }
 
 impl Words {
+    /// The cell that names a word by its index; a new word is added to the list.
     pub(super) fn place(&mut self, word: &str) -> Datum {
         if word.is_empty() {
             return Datum::Nothing(());
@@ -80,20 +81,20 @@ impl Words {
     }
 }
 
-/// A number with so many decimals, or nothing: digits that nobody sees would be most of the page.
+/// A number, rounded to so many decimals, or an empty cell. Digits that nobody sees would be most of the page.
 pub(super) fn rounded(number: Option<f64>, decimals: usize) -> Datum {
     let scale = 10_f64.powi(i32::try_from(decimals).unwrap_or(0));
     let rounded = number.map(|number| (number * scale).round() / scale).filter(|number| number.is_finite());
     rounded.map_or(Datum::Nothing(()), |number| Datum::Number(if number == 0.0 { 0.0 } else { number }))
 }
 
-/// JSON that can stand in a `<script>` element: nothing in it ends the element, or a line of script.
+/// The value as JSON that can stand in a `<script>` element: nothing in it ends the element, or a line of script.
 pub(super) fn script_json<T: Serialize>(value: &T) -> Result<String, serde_json::Error> {
     let json = serde_json::to_string(value)?;
     let mut escaped = String::with_capacity(json.len());
     for character in json.chars() {
         match character {
-            // In JSON these occur in strings alone, where an escape means the same.
+            // In JSON these characters occur in strings alone, where an escape means the same.
             '<' | '>' | '&' | '\u{2028}' | '\u{2029}' => {
                 escaped.push_str(&format!("\\u{:04x}", u32::from(character)));
             }

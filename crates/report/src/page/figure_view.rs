@@ -1,17 +1,18 @@
-//! Figures on the page.
+//! Figures as the page shows them.
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 
 use crate::figure::Figure;
 
-/// A drawing of more elements than this is shown as a picture: one node of the page, which stays light.
+/// A drawing of more elements than this is shown as a picture. It is then a single node of the page, which stays light.
 const MOST_ELEMENTS: usize = 2500;
 
 /// A figure as the template shows it.
 pub(super) struct FigureView<'a> {
     pub(super) figure: &'a Figure,
-    /// Of a drawing with very many elements: it as the source of a picture. Others stand in the page, and have its colours.
+    /// The drawing as the source of a picture, where it has very many elements. Other drawings stand in the page, and have its
+    /// colours.
     pub(super) source: Option<String>,
 }
 
@@ -22,7 +23,7 @@ impl<'a> FigureView<'a> {
     }
 }
 
-/// A picture has no page to take a font from.
+/// The drawing as a `data:` URL. It gets fonts of its own, since a picture has no page to take them from.
 fn source(svg: &str) -> String {
     let svg = svg.replacen("<svg ", "<svg font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" ", 1);
     format!("data:image/svg+xml;base64,{}", BASE64_STANDARD.encode(svg))

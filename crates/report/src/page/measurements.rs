@@ -1,11 +1,11 @@
-//! All measurements, for the table that sorts, filters and opens pictures.
+//! The data of the page's table of all measurements, which sorts, filters and opens pictures.
 
 use model::results::RESULT_COLUMNS;
 use model::{Level, ResultRow};
 
 use super::data::{Datum, Grid, GridColumn, GridKind, Words, rounded};
 
-/// Where the cells of a column come from.
+/// The source of a column's cells: the kind of cell, its decimals, and its value in a row.
 enum Source {
     Text(fn(&ResultRow) -> &str),
     Number(usize, fn(&ResultRow) -> Option<f64>),
@@ -15,12 +15,12 @@ enum Source {
     Flag(fn(&ResultRow) -> bool),
 }
 
-/// A column: its name in results.parquet, its heading, whether only the view of a row shows it, its cells.
+/// A column: its name in results.parquet, its heading, whether only the view of a single row shows it, and its cells.
 type Spec = (&'static str, &'static str, bool, Source);
 
 const NS_PER_MS: i64 = 1_000_000;
 
-/// Columns that stay where they are empty throughout: pictures are found by them.
+/// The columns that stay even where they are empty throughout, since the script finds pictures by them.
 const NEEDED: [&str; 4] = ["session", "object", "image", "level"];
 
 fn specs() -> Vec<Spec> {
@@ -70,7 +70,7 @@ fn specs() -> Vec<Spec> {
     ]
 }
 
-/// The rows in the order of the results; columns that are empty throughout are left out.
+/// The rows in the order of the results, without the columns that are empty throughout.
 pub(super) fn grid(rows: &[ResultRow]) -> Grid {
     let mut words = Words::default();
     let specs = specs().into_iter().filter(|spec| NEEDED.contains(&spec.0) || rows.iter().any(|row| has(spec, row)));
@@ -117,7 +117,7 @@ fn column((name, heading, detail, source): &Spec) -> GridColumn {
 mod tests {
     use super::{RESULT_COLUMNS, specs};
 
-    /// A column that is renamed would lose its meaning here.
+    /// A column that is renamed in the results would lose its meaning here.
     #[test]
     fn every_column_is_one_of_the_results() {
         for (name, ..) in specs() {

@@ -1,8 +1,8 @@
-//! The report as one page: `index.html`, which opens from disk and asks no network for anything.
+//! The report as one page: `index.html`, which opens from disk and needs no network.
 //!
-//! What it holds is plain HTML that reads and prints without its script. The script sorts, filters and pages tables, and
-//! opens pictures; what it needs comes along as JSON. Long tables and the measurements are JSON, of which a page at a time is
-//! in the document: ten thousand rows make a page as light as a hundred. docs/report.md describes it to its readers.
+//! The page is plain HTML that reads and prints without its script. The script sorts, filters and pages tables, and opens
+//! pictures; its data are JSON in the page. Long tables and the measurements are such JSON, of which a page at a time is in the
+//! document, so that ten thousand rows make a page as light as a hundred do. docs/report.md describes it to its readers.
 
 mod answers;
 mod assets;
@@ -30,27 +30,27 @@ use provenance::Provenance;
 use summary::Summary;
 use table_view::TableView;
 
-/// A page that could not be made.
+/// Why a page could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum PageError {
     /// The template failed, which only a failing writer can cause.
     #[error("cannot put the page together")]
     Template(#[from] askama::Error),
-    /// What the script needs cannot be written as JSON.
+    /// The data of the script cannot be written as JSON.
     #[error("cannot write the page's data as JSON")]
     Json(#[from] serde_json::Error),
 }
 
-/// What a page is made from.
+/// The content of a page.
 #[derive(Debug, Clone, Copy)]
 pub struct Page<'a> {
     /// The results.
     pub results: &'a Results,
-    /// When and how long the run was at work, where that is known.
+    /// The times of the run, where they are known.
     pub log: Option<&'a RunLog>,
-    /// Drawings, in their order on the page, and those for which there are no data.
+    /// The figures, in their order on the page, and those for which there are no data.
     pub figures: &'a Figures,
-    /// Pictures with marks; rows without one show their numbers alone.
+    /// The pictures with their marks. A row without one shows its numbers alone.
     pub pictures: &'a Pictures,
 }
 
@@ -74,8 +74,8 @@ struct PageTemplate<'a> {
 }
 
 impl Page<'_> {
-    /// The page, as HTML. `tables` are those of the study, then all others, each of which lies beside the page as CSV,
-    /// Markdown and LaTeX. The same input gives the same bytes.
+    /// The page as HTML. `tables` are those of the study and then all others. Each of them lies beside the page as CSV, Markdown
+    /// and LaTeX. The same input gives the same bytes.
     ///
     /// # Errors
     /// [`PageError`].

@@ -1,4 +1,4 @@
-//! Settings, versions, hashes and times.
+//! The origin of the results: settings, versions, hashes and times.
 
 use model::results::RESULTS_SCHEMA_VERSION;
 use model::{RunLog, RunMetadata, StageLog};
@@ -7,9 +7,9 @@ use serde_json::Value;
 use super::table_view::TableView;
 use crate::table::{Cell, Column, Role, RowKind, Table, TableRow};
 
-/// What the results came from.
+/// The origin of the results, as the page shows it.
 pub(super) struct Provenance {
-    /// Name and value, in order.
+    /// Names and values, in their order on the page.
     pub(super) facts: Vec<(&'static str, String)>,
     pub(super) settings: TableView,
     pub(super) inputs: TableView,
@@ -49,7 +49,7 @@ fn facts(metadata: &RunMetadata, log: Option<&RunLog>) -> Vec<(&'static str, Str
     facts
 }
 
-/// Leaves with their paths: `select.target_pitch_deg`. Lists of plain values are leaves.
+/// Appends the leaves of a JSON value with their paths, such as `select.target_pitch_deg`. Lists of plain values are leaves.
 fn flatten(value: &Value, path: String, leaves: &mut Vec<(String, String)>) {
     let below = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
     match value {

@@ -1,10 +1,10 @@
-//! How every session fared, and what went wrong, as tables.
+//! Tables of the sessions and of their problems.
 
 use model::{Problem, RunMetadata, SessionStatus};
 
 use crate::table::{Align, Cell, Column, Role, RowKind, Table, TableRow};
 
-/// Sessions, then problems.
+/// The table of sessions, and the table of problems.
 pub(super) fn tables(metadata: &RunMetadata) -> Vec<Table> {
     vec![sessions(metadata), problems(metadata)]
 }
@@ -41,7 +41,7 @@ fn sessions(metadata: &RunMetadata) -> Table {
     table("sessions", "Status of every session", statistic, columns, metadata.sessions.iter().map(row).collect())
 }
 
-/// With a sign that is told apart without colour.
+/// The state of a session in words, with a sign that can be told apart without colour.
 fn state(status: &SessionStatus) -> &'static str {
     match (status.failed, status.has_losses()) {
         (true, _) => "\u{2715} failed",
@@ -54,7 +54,7 @@ fn problems(metadata: &RunMetadata) -> Table {
     let columns = ["session", "cost", "stage", "code", "place", "fact", "remedy"].map(words).into();
     let row = |session: &str, problem: &Problem| {
         let Problem { severity, stage, code, place, fact, remedy } = problem;
-        [session, severity.code(), stage.code(), code, place, fact, remedy].map(Cell::text).into()
+        [session, severity.code(), stage.code(), code.code(), place, fact, remedy].map(Cell::text).into()
     };
     let rows = metadata.sessions.iter().flat_map(|status| status.problems.iter().map(|one| row(&status.session, one)));
     let mut table = table(

@@ -1,4 +1,4 @@
-//! What a reader should know first: counts, and the best answers in a few sentences.
+//! The summary at the top of the page: counts, and the best answers in a few sentences.
 
 use std::collections::BTreeSet;
 
@@ -9,17 +9,17 @@ use super::answers::{Answers, median_absolute};
 use crate::parquet::Results;
 use crate::table::Table;
 
-/// The top of the page.
+/// The summary at the top of the page.
 pub(super) struct Summary {
     pub(super) study: String,
     pub(super) statement: Option<String>,
     pub(super) sentences: Vec<String>,
     pub(super) cards: Vec<Card>,
-    /// The same answers by kind of container and quantity.
+    /// The answers by kind of container and quantity.
     pub(super) answers: Option<Table>,
 }
 
-/// A number with what it counts.
+/// A number with its label and a note.
 pub(super) struct Card {
     pub(super) label: &'static str,
     pub(super) value: String,
@@ -43,7 +43,7 @@ impl Summary {
     }
 }
 
-/// Images found, and those that count.
+/// The number of all images of the run, and of those that are selected.
 fn images(results: &Results) -> (usize, usize) {
     let of_status = |count: fn(&SessionStatus) -> usize| results.metadata.sessions.iter().map(count).sum::<usize>();
     results.flow.as_ref().map_or_else(
@@ -162,7 +162,7 @@ fn mean_and_sd(summary: &ErrorSummary) -> String {
     }
 }
 
-/// With a sign, a true minus and two decimals; nothing is neither above nor below.
+/// A number with a sign, which is a true minus where it is negative, and two decimals. Zero has no sign.
 fn signed(number: f64) -> String {
     match format!("{number:+.2}") {
         text if text == "+0.00" || text == "-0.00" => "0.00".to_owned(),
@@ -170,7 +170,7 @@ fn signed(number: f64) -> String {
     }
 }
 
-/// `1 image`, `2 images`; `size of a selected image` bends at its first word.
+/// A number of things as `1 image` or `2 images`. `size of a selected image` has its plural at the first word.
 fn counted(count: usize, name: &str) -> String {
     match (count, name.split_once(' ')) {
         (1, _) => format!("1 {name}"),

@@ -1,17 +1,18 @@
-//! Tables on the page.
+//! Tables as the page shows them.
 
 use super::data::{Datum, Grid, GridColumn, GridKind, Words, script_json};
 use crate::render::display::{caption, cell, heading, printable, shown};
 use crate::table::{Align, Column, Footnote, RowKind, Table, TableRow};
 
-/// Of a table with more rows than this ...
+/// A table with more rows than this is long.
 const LONG: usize = 120;
-/// ... so many stand in the document for those without the script, which shows all of them, a page at a time.
+/// So many rows of a long table stand in the document, for readers without the script. The script shows all of them, a page at
+/// a time.
 const SHOWN_OF_LONG: usize = 40;
-/// A table of more rows than this scrolls in a frame of its own, under its headings.
+/// A table of more rows than this scrolls in a frame of its own, below its headings.
 const TALL: usize = 40;
 
-/// A table as the template shows it: every cell is text for people.
+/// A table as the template shows it, with every cell as text for people.
 pub(super) struct TableView {
     pub(super) stem: String,
     pub(super) caption: String,
@@ -20,12 +21,12 @@ pub(super) struct TableView {
     pub(super) rows: Vec<RowView>,
     pub(super) footnotes: Vec<Footnote>,
     pub(super) remarks: Vec<String>,
-    /// Rows of the table; those of `rows` may be fewer.
+    /// Number of rows of the table. `rows` may hold fewer.
     pub(super) total: usize,
     pub(super) is_tall: bool,
-    /// Whether it lies beside the page as a file.
+    /// Whether the table lies beside the page as files.
     pub(super) has_files: bool,
-    /// All rows, of a long table.
+    /// All rows of a long table, as JSON.
     pub(super) json: Option<String>,
 }
 
@@ -35,7 +36,7 @@ pub(super) struct ColumnView {
 }
 
 pub(super) struct RowView {
-    /// Means and sums: they stay below when rows are sorted.
+    /// Whether the row holds means or sums. Such rows stay below when rows are sorted.
     pub(super) is_summary: bool,
     pub(super) first: String,
     pub(super) marks: Vec<String>,
@@ -48,6 +49,7 @@ pub(super) struct CellView {
 }
 
 impl TableView {
+    /// The table as the template shows it. Fails where a long one cannot be written as JSON.
     pub(super) fn from_table(table: &Table, has_files: bool) -> Result<Self, serde_json::Error> {
         let is_long = table.rows.len() > LONG;
         let rows = if is_long { &table.rows[..SHOWN_OF_LONG] } else { &table.rows[..] };

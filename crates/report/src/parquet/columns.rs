@@ -1,4 +1,4 @@
-//! Between cells of rows and columns of a frame.
+//! Converts rows of values into columns of Polars, and back.
 
 use model::UtcNs;
 use model::results::{CellError, Column as SchemaColumn, ColumnType, Row, Value};
@@ -7,7 +7,7 @@ use polars::prelude::{
     NewChunkedArray as _, PolarsResult, Series, StringChunked, TimeUnit, TimeZone, UInt32Chunked,
 };
 
-/// Type of a column in memory and, through Polars, in the file.
+/// The type of a column in memory and, through Polars, in the file.
 pub(super) fn data_type(column_type: ColumnType) -> DataType {
     match column_type {
         ColumnType::Text => DataType::String,
@@ -75,7 +75,7 @@ impl Builder {
     }
 }
 
-/// A frame of these rows, or the column that a cell does not fit.
+/// The columns of these rows. Fails with the name of a column where a cell does not fit it.
 pub(super) fn to_columns<R: Row>(rows: &[R]) -> Result<Vec<Column>, (&'static str, CellError)> {
     let mut builders: Vec<Builder> =
         R::COLUMNS.iter().map(|column| Builder::with_capacity(column.column_type, rows.len())).collect();
@@ -87,7 +87,7 @@ pub(super) fn to_columns<R: Row>(rows: &[R]) -> Result<Vec<Column>, (&'static st
     Ok(builders.into_iter().zip(R::COLUMNS).map(|(builder, column)| builder.finish(column.name)).collect())
 }
 
-/// A column read from a file.
+/// The cells of a column that was read from a file.
 pub(super) enum Cells {
     Text(StringChunked),
     Float(Float64Chunked),
@@ -97,7 +97,7 @@ pub(super) enum Cells {
 }
 
 impl Cells {
-    /// The column of `frame` that the schema calls `column`; its type is checked by the caller.
+    /// The cells of the column of `frame` that the schema calls `column`. The caller has checked its type.
     pub(super) fn from_column(frame: &DataFrame, column: &SchemaColumn) -> PolarsResult<Self> {
         let series = frame.column(column.name)?.as_materialized_series();
         Ok(match column.column_type {

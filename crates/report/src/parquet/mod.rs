@@ -1,4 +1,4 @@
-//! Rows to Parquet files and back. The columns come from the schema in crate `model`, never from a list here.
+//! Writes rows to Parquet files and reads them back. The columns come from the schema in crate `model`, never from a list here.
 
 use std::path::{Path, PathBuf};
 
@@ -19,13 +19,13 @@ const VERSION_KEY: &str = "aim_batch.schema_version";
 /// Key of the run's metadata, as JSON.
 const RUN_KEY: &str = "aim_batch.run";
 
-/// Where the ledger of `results` is: `frames.parquet` beside `results.parquet`, `X.frames.parquet` beside `X.parquet`.
+/// The path of the ledger of `results`: `frames.parquet` beside `results.parquet`, `X.frames.parquet` beside `X.parquet`.
 #[must_use]
 pub fn frames_file(results: &Path) -> PathBuf {
     beside(results, "frames.parquet")
 }
 
-/// Where the record of the run is: `run.json` beside `results.parquet`, `X.run.json` beside `X.parquet`.
+/// The path of the record of the run: `run.json` beside `results.parquet`, `X.run.json` beside `X.parquet`.
 #[must_use]
 pub fn run_file(results: &Path) -> PathBuf {
     beside(results, "run.json")

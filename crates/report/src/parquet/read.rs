@@ -1,4 +1,4 @@
-//! Results read back.
+//! Reads results and ledgers back.
 
 use std::io::{self, Cursor};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,7 +13,7 @@ use polars::prelude::{
 use super::columns::{Cells, data_type};
 use super::{RUN_KEY, VERSION_KEY};
 
-/// Results that could not be read.
+/// Why results could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// The file cannot be opened or read.
@@ -21,7 +21,7 @@ pub enum ReadError {
     Open {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
     /// The file is not Parquet.
@@ -29,7 +29,7 @@ pub enum ReadError {
     NotParquet {
         /// The file.
         path: PathBuf,
-        /// What Polars said.
+        /// The error of Polars.
         source: PolarsError,
     },
     /// The file contradicts itself.
@@ -46,7 +46,7 @@ pub enum ReadError {
     NotOurs {
         /// The file.
         path: PathBuf,
-        /// Missing key.
+        /// The key that is missing.
         key: &'static str,
     },
     /// The file has another schema.
@@ -57,9 +57,9 @@ pub enum ReadError {
     OtherVersion {
         /// The file.
         path: PathBuf,
-        /// Version that this program reads.
+        /// The version that this program reads.
         expected: u32,
-        /// Version of the file.
+        /// The version of the file.
         got: String,
     },
     /// The run's metadata cannot be understood.
@@ -67,7 +67,7 @@ pub enum ReadError {
     Metadata {
         /// The file.
         path: PathBuf,
-        /// What is wrong with the JSON.
+        /// The error of the JSON reader.
         source: serde_json::Error,
     },
     /// Results and ledger are not of one run.
@@ -104,23 +104,23 @@ pub enum ReadError {
     Cell {
         /// The file.
         path: PathBuf,
-        /// Row, counted from 1.
+        /// Number of the row, counted from 1.
         row: usize,
         /// Name of the column.
         column: &'static str,
-        /// Expected and got.
+        /// The type that was expected, and the value that was there.
         source: CellError,
     },
 }
 
-/// The results of a run: what `results.parquet` holds, and what `frames.parquet` says of the images.
+/// The results of a run: the content of `results.parquet`, and the numbers of images in `frames.parquet`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Results {
-    /// Rows, in the order of the file.
+    /// The rows, in the order of the file.
     pub rows: Vec<ResultRow>,
-    /// What they came from.
+    /// The metadata of their run.
     pub metadata: RunMetadata,
-    /// What became of the images; none until [`Results::read_flow`].
+    /// The flow of images; none before [`Results::read_flow`].
     pub flow: Option<StudyFlow>,
 }
 
@@ -135,10 +135,10 @@ impl Results {
         Ok(Self { rows, metadata, flow: None })
     }
 
-    /// Counts the images in `frames.parquet` (its name: [`frames_file`](super::frames_file)).
+    /// Counts the images in `frames.parquet`, whose path [`frames_file`](super::frames_file) returns, into `flow`.
     ///
     /// # Errors
-    /// As [`Results::read`], and when another run wrote it.
+    /// The same as of [`Results::read`], and where another run wrote the file.
     pub fn read_flow(&mut self, frames: &Path) -> Result<(), ReadError> {
         let (rows, metadata): (Vec<FlowRow>, _) = read_rows(frames)?;
         if metadata != self.metadata {
@@ -151,7 +151,7 @@ impl Results {
     }
 }
 
-/// Reads `frames.parquet`.
+/// The rows of `frames.parquet`, one per image.
 ///
 /// # Errors
 /// As [`Results::read`].
@@ -165,17 +165,18 @@ fn read_rows<R: Row>(path: &Path) -> Result<(Vec<R>, RunMetadata), ReadError> {
     })
 }
 
-/// Rows of a file of this version of its schema, and what `parse` makes of what its metadata has under `key`, before any row.
+/// The rows of a file, and its metadata under `key` as `parse` understands it. The file must have this `version` of the schema.
+/// Version and metadata are checked before any row is read.
 pub(super) fn read_rows_and<R: Row, M>(
     path: &Path,
     version: u32,
     key: &'static str,
     parse: impl FnOnce(String) -> Result<M, ReadError>,
 ) -> Result<(Vec<R>, M), ReadError> {
-    // Read, not mapped: a mapped file that another job shortens would end this one.
+    // The file is read, not mapped: a mapped file that another job shortens would end this one.
     let bytes = std::fs::read(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
     let not_parquet = |source| ReadError::NotParquet { path: path.to_owned(), source };
-    // One thread, so that a panic on damaged bytes arises here, where it is caught.
+    // There is one thread, so that a panic on damaged bytes arises here, where it is caught.
     let mut reader = ParquetReader::new(Cursor::new(bytes)).set_rechunk(true).read_parallel(ParallelStrategy::None);
     let metadata = parse(metadata(&mut reader, path, version, key)?)?;
     let schema = guarded(path, || reader.schema())?;
@@ -203,9 +204,9 @@ pub(super) fn read_rows_and<R: Row, M>(
     Ok((rows, metadata))
 }
 
-/// Runs a part of Polars' reader, which panics on some damaged files.
+/// Runs a part of Polars' reader, and turns its panics, which some damaged files cause, into errors.
 fn guarded<T>(path: &Path, read: impl FnOnce() -> PolarsResult<T>) -> Result<T, ReadError> {
-    // Nothing that the reader may have left half done is used after a panic.
+    // After a panic, nothing is used that the reader may have left half done.
     match catch_unwind(AssertUnwindSafe(read)) {
         Ok(read) => read.map_err(|source| ReadError::NotParquet { path: path.to_owned(), source }),
         Err(_) => Err(ReadError::Damaged { path: path.to_owned() }),

@@ -1,4 +1,4 @@
-//! One Parquet file that grows by rows.
+//! A Parquet file that grows by rows.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -13,8 +13,8 @@ use super::columns::{data_type, to_columns};
 use super::sink::SinkError;
 use crate::atomic::{Aside, FileError};
 
-/// Rows per row group. Memory holds one group; the group's borders depend on nothing but the rows' order, so neither
-/// sessions nor threads show in the bytes.
+/// Number of rows of a row group. Memory holds one group. The borders of groups depend on nothing but the order of the rows, so
+/// that neither sessions nor threads show in the bytes.
 const ROWS_PER_GROUP: usize = 1 << 16;
 
 /// A Parquet file of rows `R`, under a temporary name until it is put in place.
@@ -38,6 +38,7 @@ impl<R: Row> RowFile<R> {
         Ok(Self { path: path.to_owned(), aside, writer, pending: Vec::new() })
     }
 
+    /// Appends rows. Those that fill a row group are written.
     pub(super) fn push(&mut self, rows: Vec<R>) -> Result<(), SinkError> {
         self.pending.extend(rows);
         while self.pending.len() >= ROWS_PER_GROUP {
@@ -55,14 +56,14 @@ impl<R: Row> RowFile<R> {
             .map_err(|source| SinkError::Encode { path: self.path.clone(), source })
     }
 
-    /// Writes what is left and the footer, and syncs. The file keeps its temporary name.
+    /// Writes the rows that are left and the footer, and syncs the file, which keeps its temporary name.
     pub(super) fn seal(&mut self, key_values: &[(&str, String)]) -> Result<(), SinkError> {
         let rest = std::mem::take(&mut self.pending);
         if !rest.is_empty() {
             self.write_group(&rest)?;
         }
         let pairs = key_values.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect();
-        // The metadata of a run is known only now, so it goes to the inner writer. No embedded Arrow schema: without
+        // The metadata of a run is known only now, so it goes to the inner writer. There is no embedded Arrow schema: without
         // it every reader takes Parquet's own types (string, double, timestamp[ns, UTC]) and not Polars' string views.
         KeyValueMetadata::from_static(pairs)
             .collect(ParquetMetadataContext { arrow_schema: "" })

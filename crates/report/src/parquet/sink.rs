@@ -1,4 +1,4 @@
-//! The sink that pipeline fills.
+//! The sink that pipeline fills with rows.
 
 use std::path::{Path, PathBuf};
 
@@ -12,10 +12,10 @@ use super::run_file;
 use super::{RUN_KEY, VERSION_KEY};
 use crate::atomic::{self, FileError};
 
-/// Rows that could not be stored.
+/// Why rows could not be stored.
 #[derive(Debug, thiserror::Error)]
 pub enum SinkError {
-    /// Both files would be the same.
+    /// Results and ledger would be the same file.
     #[error("results and frames need two different files, got one for both: {}", path.display())]
     SamePath {
         /// The file.
@@ -29,18 +29,18 @@ pub enum SinkError {
     Cell {
         /// Name of the column.
         column: &'static str,
-        /// Expected and got.
+        /// The type that was expected, and the value that was there.
         source: CellError,
     },
-    /// Parquet could not be made or written.
+    /// Parquet could not be encoded or written.
     #[error("cannot write Parquet; is the disk full? The earlier file, if any, is as it was: {}", path.display())]
     Encode {
         /// The target.
         path: PathBuf,
-        /// What Polars said.
+        /// The error of Polars.
         source: PolarsError,
     },
-    /// The metadata is not JSON.
+    /// The metadata cannot be put into JSON.
     #[error("the metadata of the run cannot be written as JSON")]
     Metadata(#[source] serde_json::Error),
     /// The files are complete already.
@@ -48,16 +48,16 @@ pub enum SinkError {
     Finished,
 }
 
-/// Writes `results.parquet`, `frames.parquet` and `run.json`: zstd, the Parquet files byte-identical for equal rows and metadata, in place only when
-/// [`finish`](ResultSink::finish) has succeeded. Dropped before, it leaves nothing behind. Memory holds at most 65,536
-/// rows of each file, plus those of one session.
+/// A sink that writes `results.parquet`, `frames.parquet` (both with zstd) and `run.json`. Equal rows and metadata give the same
+/// bytes of the Parquet files. The files are put in place only when [`finish`](ResultSink::finish) succeeds; a sink that is
+/// dropped before leaves nothing behind. Memory holds at most 65,536 rows of each file, plus those of one session.
 pub struct ParquetSink {
     results: PathBuf,
     frames: PathBuf,
     files: Option<(RowFile<ResultRow>, RowFile<FrameRow>)>,
 }
 
-/// What `run.json` holds: where the results came from, and when.
+/// The content of `run.json`: the origin of the results, and the times of the run.
 #[derive(Serialize)]
 struct RunFile<'a> {
     schema_version: u32,
@@ -70,11 +70,11 @@ struct RunFile<'a> {
 const RUN_FILE_VERSION: u32 = 1;
 
 impl ParquetSink {
-    /// Opens temporary files beside `results` and `frames`, so that a folder which cannot be written shows before the
-    /// work and not after it.
+    /// Opens temporary files beside `results` and `frames`, so that a folder that cannot be written is known before the work and
+    /// not after it.
     ///
     /// # Errors
-    /// When the two are the same file, or a temporary file cannot be made in their folders.
+    /// The two are the same file, or a temporary file cannot be made in their folders.
     pub fn create(results: &Path, frames: &Path) -> Result<Self, SinkError> {
         if results == frames {
             return Err(SinkError::SamePath { path: results.to_owned() });
@@ -100,7 +100,7 @@ impl ResultSink for ParquetSink {
         let key_values = [(VERSION_KEY, RESULTS_SCHEMA_VERSION.to_string()), (RUN_KEY, run)];
         frame_file.seal(&key_values)?;
         result_file.seal(&key_values)?;
-        // Results last: whoever sees new results also finds their frames.
+        // The results come last, so that the frames of new results are there as well.
         frame_file.put_in_place()?;
         result_file.put_in_place()?;
         let run = RunFile { schema_version: RUN_FILE_VERSION, metadata, times: log };

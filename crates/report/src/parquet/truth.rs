@@ -1,4 +1,4 @@
-//! `truth.parquet`: what is true of a simulated study.
+//! Writes and reads `truth.parquet`, the truth of a simulated study.
 
 use std::path::Path;
 
@@ -9,14 +9,14 @@ use super::read::{ReadError, read_rows_and};
 use super::row_file::RowFile;
 use super::sink::SinkError;
 
-/// Key of what the study was made from, as JSON.
+/// Key of the study's origin in the metadata, as JSON.
 const MADE_KEY: &str = "aim_batch.simulate";
 
-/// Writes rows to `path`, in their order: zstd, the same bytes for the same rows and origin, aside first and then renamed.
-/// `made_from`: what the study was made from, JSON; it goes into the metadata as `aim_batch.simulate`.
+/// Writes rows to `path` in their order, with zstd, aside first and then renamed. The same rows and origin give the same bytes.
+/// `made_from` is the origin of the study as JSON; it goes into the metadata as `aim_batch.simulate`.
 ///
 /// # Errors
-/// [`SinkError`] when the file cannot be written; an earlier one is then as it was.
+/// [`SinkError`] when the file cannot be written; an earlier one is then unchanged.
 pub fn write_truth(path: &Path, rows: Vec<TruthRow>, made_from: &str) -> Result<(), SinkError> {
     let mut file = RowFile::create(path)?;
     file.push(rows)?;
@@ -24,7 +24,7 @@ pub fn write_truth(path: &Path, rows: Vec<TruthRow>, made_from: &str) -> Result<
     Ok(file.put_in_place()?)
 }
 
-/// Reads what [`write_truth`] wrote: the rows, and what the study was made from.
+/// Reads the rows and the origin of the study that [`write_truth`] wrote.
 ///
 /// # Errors
 /// [`ReadError`]: no such file, not Parquet, not a truth of this program's version, a missing column, or a column or cell of

@@ -1,9 +1,9 @@
-//! For machines: every column, the rows of means in the same file.
+//! A table as CSV, for machines: every column, with the rows of means in the same file.
 
 use super::display::shortest;
 use crate::table::{Cell, Table, TableRow};
 
-/// The table as CSV (RFC 4180, UTF-8, lines end in LF), with a header line.
+/// The table as CSV (RFC 4180, UTF-8, lines that end in LF), with a header line.
 #[must_use]
 pub fn csv(table: &Table) -> String {
     let mut text = line(&header(table));
@@ -13,12 +13,12 @@ pub fn csv(table: &Table) -> String {
     text
 }
 
-/// Names of the columns.
+/// The names of the columns.
 pub(crate) fn header(table: &Table) -> Vec<String> {
     table.columns.iter().map(|column| column.name.clone()).collect()
 }
 
-/// One row's cells.
+/// The cells of a row as text.
 pub(crate) fn record(row: &TableRow) -> Vec<String> {
     row.cells
         .iter()

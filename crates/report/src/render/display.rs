@@ -1,15 +1,15 @@
-//! What the renderers for people share: which columns they show, and cells as words.
+//! The common part of the renderers for people: the columns that they show, and cells as words.
 
 use crate::table::{Cell, Column, Format, Table, TableRow};
 
-/// A number with at most six decimals and no more than it needs.
+/// A number as text, with as many decimals as it needs, at most six.
 pub(crate) fn shortest(number: f64) -> String {
     let text = format!("{number:.6}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     unsigned_zero(text.to_owned())
 }
 
-/// '-0.00' is 0.00.
+/// The text of a number, without the sign of `-0.00`.
 fn unsigned_zero(text: String) -> String {
     let is_zero = !text.bytes().any(|byte| byte.is_ascii_digit() && byte != b'0');
     match text.strip_prefix('-') {
@@ -25,17 +25,17 @@ fn formatted(number: f64, format: Format) -> String {
     }
 }
 
-/// Control characters in names would move the cursor of a terminal, or end a line of a table.
+/// The text without control characters, which would move the cursor of a terminal, or end a line of a table.
 pub(crate) fn printable(text: &str) -> String {
     text.chars().map(|character| if character.is_control() { '\u{fffd}' } else { character }).collect()
 }
 
-/// The columns for people.
+/// The columns that people see, with their indices.
 pub(crate) fn shown(table: &Table) -> Vec<(usize, &Column)> {
     table.columns.iter().enumerate().filter(|(_, column)| column.heading.is_some()).collect()
 }
 
-/// Heading and unit of a column: `error (%)`.
+/// Heading and unit of a column, such as `error (%)`.
 pub(crate) fn heading(column: &Column) -> String {
     let heading = printable(column.heading.as_deref().unwrap_or(&column.name));
     match column.unit {
@@ -44,7 +44,8 @@ pub(crate) fn heading(column: &Column) -> String {
     }
 }
 
-/// The cell of a shown column, with its SD behind ± where it has one. `place` counts shown columns.
+/// The text of a cell in a shown column, with its SD behind ± where it has one. `place` is the index among the shown columns,
+/// `index` that among all.
 pub(crate) fn cell(table: &Table, row: &TableRow, place: usize, (index, column): (usize, &Column)) -> String {
     if let Some(label) = row.label.as_ref().filter(|_| place == 0) {
         return label.clone();
@@ -63,7 +64,7 @@ pub(crate) fn cell(table: &Table, row: &TableRow, place: usize, (index, column):
     }
 }
 
-/// `Table II. Error in dimensions for plates`.
+/// The caption with the number before it, such as `Table II. Error in dimensions for plates`.
 pub(crate) fn caption(table: &Table) -> String {
     let title = printable(&table.title);
     match &table.label {

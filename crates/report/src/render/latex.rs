@@ -1,19 +1,20 @@
-//! For papers: booktabs, with threeparttable for tables of a page and longtable for longer ones.
+//! A table as LaTeX, for papers: booktabs, with threeparttable for tables of a page and longtable for longer ones.
 
 use super::display::{caption, cell, heading, printable, shown};
 use crate::table::{Align, Column, Role, RowKind, Table, TableRow};
 
-/// More rows than this do not stand on a page.
+/// The greatest number of rows that stand on a page.
 const MOST_ROWS_OF_A_PAGE: usize = 55;
 
-/// The widest table in each size of letters, in characters, for a text of 17 cm (A4 with margins of 2 cm), and the space beside columns.
+/// The width of the widest table in each size of letters, in characters, for a text of 17 cm (A4 with margins of 2 cm); the
+/// command of that size; and the command of the space beside columns.
 const WIDTHS: [(usize, &str, &str); 3] =
     [(112, "\\footnotesize", "3pt"), (132, "\\scriptsize", "3pt"), (usize::MAX, "\\tiny", "1.5pt")];
 
 type Columns<'a> = [(usize, &'a Column)];
 
-/// The table as a LaTeX float, or, if it is longer than a page, as one that goes on from page to page. The document needs
-/// `\usepackage{booktabs,longtable,threeparttable}`; pdflatex compiles it. Letters are as small as a text width of 17 cm needs.
+/// The table as a LaTeX float, or, where it is longer than a page, as a table that goes on from page to page. The document needs
+/// `\usepackage{booktabs,longtable,threeparttable}`, and pdflatex compiles it. Letters are as small as a text of 17 cm needs.
 #[must_use]
 pub fn latex(table: &Table) -> String {
     let columns = shown(table);
@@ -47,7 +48,8 @@ fn long(table: &Table, columns: &Columns<'_>) -> String {
     )
 }
 
-/// The caption, with what its statistics are. The float numbers itself; 'Table II.' would stand there twice.
+/// The title, with the definitions of the statistics. The number is left out: a float numbers itself, and 'Table II.' would
+/// stand there twice.
 fn captioned(table: &Table) -> String {
     let title = printable(&table.title);
     let statistic = escaped(&printable(&table.statistic));
@@ -70,7 +72,7 @@ fn body(table: &Table, columns: &Columns<'_>) -> String {
     text
 }
 
-/// The largest letters in which the table is not wider than a text of 17 cm, and the space beside columns.
+/// The commands of the largest letters in which the table is not wider than a text of 17 cm, and of the space beside columns.
 fn size(table: &Table, columns: &Columns<'_>) -> [&'static str; 2] {
     let length = |text: &str| text.chars().count();
     let width = |(place, column): (usize, &(usize, &Column))| {
@@ -88,7 +90,7 @@ fn alignments(columns: &Columns<'_>) -> String {
     columns.iter().map(|(_, column)| alignment(column)).collect()
 }
 
-/// Sentences wrap; names and numbers do not.
+/// The column type of LaTeX: sentences wrap; names and numbers do not.
 fn alignment(column: &Column) -> &'static str {
     match (column.role, column.align) {
         (Role::Note, _) => "p{0.45\\linewidth}",
@@ -97,14 +99,14 @@ fn alignment(column: &Column) -> &'static str {
     }
 }
 
-/// The heading with a word per line: columns of numbers are narrow.
+/// The heading with a word per line, since columns of numbers are narrow.
 fn stacked_heading(column: &Column) -> String {
     let side = if column.align == Align::Left { 'l' } else { 'r' };
     let words: Vec<String> = heading(column).split_whitespace().map(escaped).collect();
     format!("\\shortstack[{side}]{{{}}}", words.join("\\\\"))
 }
 
-/// Footnotes and remarks, as items of a list.
+/// Footnotes and remarks as items of a LaTeX list.
 fn notes(table: &Table) -> String {
     let mut items = String::new();
     for footnote in &table.footnotes {
@@ -117,11 +119,11 @@ fn notes(table: &Table) -> String {
 }
 
 fn line(cells: impl Iterator<Item = String>) -> String {
-    // An empty group: a cell that begins with '[' would be taken as the argument of the \\ before it.
+    // The empty group is for cells that begin with '[', which would be taken as the argument of the \\ before them.
     format!("{{}}{} \\\\\n", cells.collect::<Vec<_>>().join(" & "))
 }
 
-/// Numbers get the minus sign of mathematics.
+/// The text of a cell. Numbers get the minus sign of mathematics.
 fn shown_cell(text: &str, align: Align) -> String {
     let escaped = escaped(text);
     match (align, escaped.strip_prefix('-')) {
@@ -130,12 +132,13 @@ fn shown_cell(text: &str, align: Align) -> String {
     }
 }
 
-/// A label's characters that no package makes active.
+/// A label of those characters that no package makes active.
 fn label(stem: &str) -> String {
     stem.chars().map(|character| if character.is_ascii_alphanumeric() { character } else { '-' }).collect()
 }
 
-/// Text that prints as it is. What pdflatex has no glyph for in its default fonts prints as its code point.
+/// The text, escaped so that it prints as it is. A character without a glyph in pdflatex's default fonts prints as its code
+/// point.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
@@ -165,8 +168,8 @@ fn escaped(text: &str) -> String {
     escaped
 }
 
-/// Letters that pdflatex composes in its default encoding (OT1) without further packages: Latin-1 and Latin Extended-A
-/// but for those with an ogonek, eth, thorn, eng, bars and ligatures.
+/// Whether pdflatex composes the letter in its default encoding (OT1) without further packages. It does so for Latin-1 and
+/// Latin Extended-A, apart from letters with an ogonek, eth, thorn, eng, bars and ligatures.
 fn is_accented_latin(character: char) -> bool {
     const NO_GLYPH: &str = "\u{d0}\u{de}\u{f0}\u{fe}\u{104}\u{105}\u{110}\u{111}\u{118}\u{119}\u{126}\u{127}\u{12e}\u{12f}\u{138}\u{13f}\u{140}\u{149}\u{14a}\u{14b}\u{166}\u{167}\u{172}\u{173}\u{17f}";
     matches!(character, '\u{c0}'..='\u{17f}') && !NO_GLYPH.contains(character)

@@ -1,9 +1,9 @@
-//! For documents: a pipe table as GitHub and Pandoc read it.
+//! A table as Markdown, for documents: a pipe table as GitHub and Pandoc read it.
 
 use super::display::{caption, cell, heading, printable, shown};
 use crate::table::{Align, Table};
 
-/// The table as Markdown: a heading of level 3, the table, its footnotes, the study's statement.
+/// The table as Markdown: a heading of level 3, the table, its footnotes, and the study's statement.
 #[must_use]
 pub fn markdown(table: &Table) -> String {
     let columns = shown(table);
@@ -36,7 +36,7 @@ pub fn markdown(table: &Table) -> String {
     text
 }
 
-/// A sentence or name as Markdown that shows it as it is.
+/// A sentence or name as Markdown that shows it unchanged.
 pub(crate) fn markdown_text(text: &str) -> String {
     escaped(&printable(text))
 }
@@ -45,7 +45,7 @@ fn line(cells: impl Iterator<Item = String>) -> String {
     format!("| {} |\n", cells.collect::<Vec<_>>().join(" | "))
 }
 
-/// Text that shows as it is: no emphasis, links, HTML, formulas or cell borders.
+/// The text, escaped so that it shows unchanged: no emphasis, links, HTML, formulas or cell borders.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {

@@ -1,4 +1,4 @@
-//! A table as text.
+//! Tables as text of several kinds.
 
 mod csv;
 pub(crate) mod display;

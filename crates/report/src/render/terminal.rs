@@ -1,15 +1,15 @@
-//! For a terminal: UTF-8, no colours.
+//! A table as text for a terminal: UTF-8, no colours.
 
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Width, presets};
 
 use super::display::{caption, cell, heading, printable, shown};
 use crate::table::{Align, Column, Role, Table};
 
-/// Names wrap to lines of no fewer characters than this; a terminal that is narrower still breaks numbers, too.
+/// Names wrap to lines of no fewer characters than this. On a terminal that is too narrow even for that, numbers break as well.
 const NAMES_AT_LEAST: usize = 12;
 
-/// The table with its caption above and its footnotes below. `width` in columns wraps words to fit; none leaves lines
-/// as long as they need. The study's statement is not here but under the set: [`terminal_set`].
+/// The table with its caption above and its footnotes below. Words wrap to `width` columns; without it, lines are as long as
+/// they need to be. The study's statement is not part of it: it stands below the whole set ([`terminal_set`]).
 #[must_use]
 pub fn terminal(table: &Table, width: Option<usize>) -> String {
     let mut text = caption(table) + "\n";
@@ -24,7 +24,7 @@ pub fn terminal(table: &Table, width: Option<usize>) -> String {
     text
 }
 
-/// All tables, one under the other, and the study's statement at the end.
+/// All tables, one below the other, and the study's statement at the end.
 #[must_use]
 pub fn terminal_set(tables: &[Table], width: Option<usize>) -> String {
     let mut text = tables.iter().map(|table| terminal(table, width)).collect::<Vec<_>>().join("\n");
@@ -70,14 +70,14 @@ fn grid(table: &Table, width: Option<usize>) -> String {
     grid.to_string()
 }
 
-/// Makes the grid as wide as the terminal, and no column narrower than `widths` where that can be.
+/// Makes the grid as wide as the terminal, with no column narrower than its width in `widths` where that is possible.
 fn fit(grid: &mut comfy_table::Table, width: usize, mut widths: Vec<usize>) {
     grid.set_content_arrangement(ContentArrangement::Dynamic);
     grid.set_width(to_u16(width));
     let Some(names) = widths.first().copied() else { return };
-    // Each column takes its spaces and a border more.
+    // In addition, each column takes its spaces and a border.
     let needed = |spaces: usize| widths.iter().map(|width| width + spaces + 1).sum::<usize>() + 1;
-    // What is too much is taken from the space before cells if that is enough, else from the names, which may wrap.
+    // The excess is taken from the space before cells where that is enough, and else from the names, which may wrap.
     let choices = [(2, names), (1, names), (2, NAMES_AT_LEAST), (1, NAMES_AT_LEAST)];
     let fitting = choices.into_iter().find_map(|(spaces, names_at_least)| {
         let left = names.checked_sub(needed(spaces).saturating_sub(width))?;
@@ -98,7 +98,7 @@ fn to_u16(width: usize) -> u16 {
     u16::try_from(width).unwrap_or(u16::MAX)
 }
 
-/// Widths at which no cell and no word of a heading is broken; sentences may wrap between their words.
+/// The widths of columns at which no cell and no word of a heading is broken. Sentences may wrap between their words.
 fn unbroken_widths(columns: &[(usize, &Column)], headings: &[String], rows: &[Vec<String>]) -> Vec<usize> {
     let length = |text: &str| text.chars().count();
     let longest_word = |text: &str| text.split(' ').map(length).max().unwrap_or(0);
@@ -110,7 +110,7 @@ fn unbroken_widths(columns: &[(usize, &Column)], headings: &[String], rows: &[Ve
     columns.iter().enumerate().map(unbroken).collect()
 }
 
-/// Words on lines of at most `width` characters.
+/// Appends the words of a sentence on lines of at most `width` characters.
 fn push_wrapped(text: &mut String, sentence: &str, width: Option<usize>) {
     let width = width.unwrap_or(usize::MAX);
     let mut used = 0;

@@ -1,4 +1,4 @@
-//! Accuracy against true sizes: errors, limits of agreement, coverage of the stated uncertainties.
+//! The table `accuracy`: errors against true sizes, limits of agreement, and coverage of the stated uncertainties.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,27 +14,27 @@ const STATISTIC: &str = "Errors: 100 (predicted - original) / original, signed, 
                          signed errors; q95 and max: of the absolute ones; limits: bias -+ 1.96 SD (Bland and Altman); \
                          68 and 95: per cent of sizes whose stated interval holds the truth, where no assumption is in doubt.";
 
-/// Resampling repeats; the seed is fixed, so that a table is the same each time.
+/// Number of draws of the bootstrap. The seed is fixed, so that a table is the same each time.
 const DRAWS: usize = 1000;
 const SEED: u64 = 20;
 
-/// What the errors of one row have in common.
+/// The properties that the errors of one row of the table have in common.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
     level: Level,
     kind: Kind,
     quantity: Quantity,
     method: Method,
-    /// Number of what the rows are told apart by, in [`BY`].
+    /// Index in [`BY`] of the property that groups the rows.
     by: usize,
     group: String,
 }
 
-/// What rows are told apart by.
+/// The properties by which the rows of the results are grouped.
 const BY: [&str; 5] = ["all", "pitch", "height", "object", "rater"];
 
-/// Errors of all sizes with a truth by level, kind, quantity and method: all together, and by band of pitch, height of the
-/// camera, object and rater.
+/// The errors of all sizes with a truth by level, kind, quantity and method: all together, and by band of pitch, band of height
+/// of the camera, object and rater.
 #[must_use]
 pub fn accuracy(results: &Results) -> Table {
     let participants: BTreeSet<&str> = results.rows.iter().filter_map(|row| row.participant.as_deref()).collect();
@@ -67,7 +67,7 @@ pub fn accuracy(results: &Results) -> Table {
     }
 }
 
-/// The groups that a row belongs to.
+/// The groups that a row belongs to, with the index in [`BY`] of each.
 fn groups_of(row: &ResultRow) -> Vec<(usize, String)> {
     let named =
         [Some(String::new()), pitch_name(row), height_name(row), Some(row.object.clone()), Some(row.rater.clone())];
@@ -137,19 +137,20 @@ fn table_row(key: &Key, errors: &[(&ResultRow, f64)], by_participant: bool) -> O
     Some(TableRow { kind: RowKind::Row, label: None, cells, marks: Vec::new() })
 }
 
-/// Mean. Alone, as the next: a whole [`ErrorSummary`] sorts, which took most of a report's time a thousand times over.
+/// The mean of the errors. It is computed alone, as the RMS below, because a whole [`ErrorSummary`] sorts the errors, which took
+/// most of the time of a report when the bootstrap repeated it a thousand times.
 #[expect(clippy::cast_precision_loss, reason = "a count of sizes is far below 2^53")]
 fn bias(errors: &[f64]) -> f64 {
     errors.iter().sum::<f64>() / errors.len() as f64
 }
 
-/// Root mean square.
+/// The root mean square of the errors.
 #[expect(clippy::cast_precision_loss, reason = "a count of sizes is far below 2^53")]
 fn rmse(errors: &[f64]) -> f64 {
     (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt()
 }
 
-/// Errors of one participant, or of one object, together.
+/// The errors, grouped by participant or by object.
 fn clusters(errors: &[(&ResultRow, f64)], by_participant: bool) -> Vec<Vec<f64>> {
     let mut clusters: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for (row, error) in errors {
@@ -159,7 +160,7 @@ fn clusters(errors: &[(&ResultRow, f64)], by_participant: bool) -> Vec<Vec<f64>>
     clusters.into_values().collect()
 }
 
-/// Errors with their uncertainties in mm, of sizes whose method claims to apply.
+/// The errors and the uncertainties, in mm, of the sizes without a doubt about their method.
 fn claimed(errors: &[(&ResultRow, f64)]) -> Vec<(f64, f64)> {
     let of_row = |(row, _): &(&ResultRow, f64)| Some((row.predicted_mm? - row.truth_mm?, row.sigma_mm?));
     errors.iter().filter(|(row, _)| row.doubts.is_empty()).filter_map(of_row).collect()

@@ -1,4 +1,4 @@
-//! How far raters agree.
+//! The table `rater_agreement`: how closely raters agree.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,10 +11,10 @@ use crate::table::{Cell, Column, Format, RowKind, Table, TableRow};
 const STATISTIC: &str = "ICC(2,1): two-way random effects, absolute agreement, one rater. SEM: standard error of measurement \
                          of one rater. Targets: objects of sessions that every rater of the row has a fused size of.";
 
-/// Sizes by session and object, then rater.
+/// Sizes in mm by target (session and object), and then by rater.
 type ByTarget<'a> = BTreeMap<(&'a str, &'a str), BTreeMap<&'a str, f64>>;
 
-/// Agreement of raters by quantity and method, from fused sizes.
+/// The agreement of raters by quantity and method, from fused sizes.
 #[must_use]
 pub fn rater_agreement(results: &Results) -> Table {
     let mut ratings: BTreeMap<(Quantity, Method), ByTarget<'_>> = BTreeMap::new();
@@ -45,8 +45,8 @@ pub fn rater_agreement(results: &Results) -> Table {
     }
 }
 
-/// The raters who rated most targets, and the targets that all of them rated: those who marked one session only would leave
-/// nothing in common.
+/// The row of a quantity and a method; none where no two raters rated the same targets. It is made from that group of raters who
+/// rated most targets in common, since a rater who marked one session only would leave nothing in common with the others.
 fn table_row(quantity: Quantity, method: Method, targets: &ByTarget<'_>) -> Option<TableRow> {
     let mut rated: BTreeMap<BTreeSet<&str>, Vec<Vec<f64>>> = BTreeMap::new();
     for by_rater in targets.values().filter(|by_rater| by_rater.len() > 1) {

@@ -1,4 +1,4 @@
-//! Error by pitch and by height: where in the field of setups the errors are.
+//! The tables `error_by_pitch` and `error_by_height`: errors by the pitch and the height of the camera.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,8 +8,8 @@ use super::errors::row_error_pct;
 use crate::parquet::Results;
 use crate::table::{Cell, Column, Format, RowKind, Table, TableRow};
 
-/// Borders of the pitch bands in degrees; each holds its lower border, the last one both. 40, 55 and 70 degrees, the
-/// paper's pitches, lie in the middle of theirs.
+/// Borders of the bands of pitch in degrees. Each band holds its lower border, and the last one both. The paper's pitches of
+/// 40, 55 and 70 degrees lie near the middle of their bands.
 const PITCH_BORDERS_DEG: [f64; 6] = [0.0, 30.0, 47.5, 62.5, 75.0, 90.0];
 
 /// Width of a band of measured heights, in mm.
@@ -19,7 +19,8 @@ const STATISTIC: &str = "Error: 100 (predicted - original) / original, signed, o
                          (n - 1); MAE: mean absolute error; RMS: root mean square; worst: the largest absolute error. \
                          'across' takes diameter, width and length together.";
 
-/// A band: its borders in 1/1000 of a unit (integers, so that they sort and compare), and how its value came about.
+/// A band: its borders in 1/1000 of a unit (integers, so that they sort and compare), and whether its value is nominal or
+/// measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Band {
     basis: Option<&'static str>,
@@ -27,10 +28,11 @@ struct Band {
     to: i64,
 }
 
-/// What the errors of one row of the table have in common. Quantity none: diameter, width and length together.
+/// The properties that the errors of one row of the table have in common. Without a quantity, it stands for diameter, width
+/// and length together.
 type Key = (Kind, std::cmp::Reverse<bool>, Option<Quantity>, Method, Band);
 
-/// Errors per kind, quantity, method and band of the *measured* pitch, from rows of single images with a true size.
+/// The errors by kind, quantity, method and band of the *measured* pitch, from rows of single images with a true size.
 #[must_use]
 pub fn error_by_pitch(results: &Results) -> Table {
     let columns = [("pitch_from_deg", "pitch from"), ("pitch_to_deg", "pitch to")]
@@ -38,8 +40,8 @@ pub fn error_by_pitch(results: &Results) -> Table {
     table(results, "error_by_pitch", "Error by measured pitch", None, columns, pitch_band)
 }
 
-/// Errors per kind, quantity, method and height of the camera above the table: the nominal height where a session has
-/// one (`basis` nominal), else bands of 10 cm of the measured height, range times sine of pitch (`basis` measured).
+/// The errors by kind, quantity, method and height of the camera above the table. It is the nominal height where a session has
+/// one (`basis` nominal), and else a band of 10 cm of the measured height, which is range times sine of pitch (`basis` measured).
 #[must_use]
 pub fn error_by_height(results: &Results) -> Table {
     let columns = [("height_from_cm", "height from"), ("height_to_cm", "height to")]
@@ -73,12 +75,12 @@ fn height_band(row: &ResultRow) -> Option<Band> {
     height_mm.is_finite().then_some(Band { basis: Some("measured"), from, to })
 }
 
-/// Borders of a row's band of measured pitch, in degrees.
+/// The borders of a row's band of measured pitch, in degrees; none where the row has no pitch in [0, 90].
 pub(crate) fn pitch_band_deg(row: &ResultRow) -> Option<[f64; 2]> {
     pitch_band(row).map(Band::borders)
 }
 
-/// Borders of a row's band of height of the camera, in cm; equal ones where the height is nominal.
+/// The borders of a row's band of the height of the camera, in cm. They are equal where the height is nominal.
 pub(crate) fn height_band_cm(row: &ResultRow) -> Option<[f64; 2]> {
     height_band(row).map(Band::borders)
 }
@@ -90,19 +92,19 @@ impl Band {
     }
 }
 
-/// Name of a row's band of pitch.
+/// The name of a row's band of pitch.
 pub(super) fn pitch_name(row: &ResultRow) -> Option<String> {
     pitch_band(row).map(|band| band_name(band, "deg"))
 }
 
-/// Name of a row's band of height of the camera.
+/// The name of a row's band of the height of the camera.
 pub(super) fn height_name(row: &ResultRow) -> Option<String> {
     height_band(row).map(|band| band_name(band, "cm"))
 }
 
 #[expect(clippy::cast_precision_loss, reason = "borders are far below 2^53")]
 fn band_name(band: Band, unit: &str) -> String {
-    // Sorted as text, so three digits before the point.
+    // Names are sorted as text, so they have three digits before the point.
     let border = |thousandths: i64| format!("{:05.1}", thousandths as f64 / 1e3);
     if band.from == band.to {
         format!("{} {unit}", border(band.from))
@@ -158,7 +160,7 @@ fn table(
     }
 }
 
-/// The errors of every row of the table.
+/// The errors in per cent for every row of the table.
 fn errors(results: &Results, band_of: impl Fn(&ResultRow) -> Option<Band>) -> BTreeMap<Key, Vec<f64>> {
     let frames = || results.rows.iter().filter(|row| row.level == Level::Frame);
     let measured = || frames().filter_map(|row| Some((row, band_of(row)?, row_error_pct(row)?)));

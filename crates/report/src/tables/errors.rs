@@ -1,8 +1,8 @@
-//! Means and errors of what may be missing.
+//! Means and errors of numbers that may be missing.
 
 use model::{ErrorStats, ResultRow};
 
-/// Mean of the finite numbers among `values`; none if there are none.
+/// The mean of the finite numbers among `values`; none where there are none.
 #[expect(clippy::cast_precision_loss, reason = "a count of values is far below 2^53")]
 pub(super) fn mean(values: impl IntoIterator<Item = Option<f64>>) -> Option<f64> {
     let (sum, n) = values
@@ -13,18 +13,18 @@ pub(super) fn mean(values: impl IntoIterator<Item = Option<f64>>) -> Option<f64>
     (n > 0).then(|| sum / n as f64)
 }
 
-/// Signed error in per cent, where there is a size and a truth above zero.
+/// The signed error in per cent, where there are a size and a truth above zero.
 pub(super) fn error_pct(predicted: Option<f64>, truth: Option<f64>) -> Option<f64> {
     let truth = truth.filter(|truth| *truth > 0.0)?;
     Some(100.0 * (predicted? - truth) / truth).filter(|error| error.is_finite())
 }
 
-/// The error of one row of the results.
+/// The signed error in per cent of a row of the results.
 pub(crate) fn row_error_pct(row: &ResultRow) -> Option<f64> {
     error_pct(row.predicted_mm, row.truth_mm)
 }
 
-/// Mean and SD as they stand in a row of means.
+/// The mean and the SD of errors, as they stand in a row of means.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Summary {
     pub(super) n: usize,
@@ -33,7 +33,7 @@ pub(super) struct Summary {
 }
 
 impl Summary {
-    /// Mean and sample SD (n - 1).
+    /// The mean and the sample SD (n - 1) of the errors.
     pub(super) fn sample(errors: &[f64]) -> Self {
         ErrorStats::from_errors(errors).map_or_else(Self::default, |s| Self {
             n: s.n,
@@ -42,7 +42,7 @@ impl Summary {
         })
     }
 
-    /// Mean and population SD (n).
+    /// The mean and the population SD (n) of the errors.
     pub(super) fn population(errors: &[f64]) -> Self {
         ErrorStats::from_errors(errors).map_or_else(Self::default, |s| Self {
             n: s.n,
@@ -52,12 +52,12 @@ impl Summary {
     }
 }
 
-/// Centimetres, the unit of the tables.
+/// A length in centimetres, the unit of the tables.
 pub(super) fn to_cm(millimetres: Option<f64>) -> Option<f64> {
     millimetres.map(|millimetres| millimetres / 10.0)
 }
 
-/// What a footnote says of rows without a size: their flags.
+/// The text of a footnote about rows without a size, with their flags; none where every row has a size.
 pub(super) fn not_measured<'a>(rows: impl IntoIterator<Item = &'a ResultRow>) -> Option<String> {
     let mut all = 0;
     let mut missing = 0;

@@ -1,4 +1,4 @@
-//! The flow of images: how many of a session's images reach each step.
+//! The table `flow`: the numbers of a session's images that reach each step of the selection.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -9,9 +9,9 @@ use super::footnotes::{NotedRow, mark};
 use crate::parquet::Results;
 use crate::table::{Cell, Column, ROW, RowKind, Table};
 
-/// More sessions than this are too many for a terminal, ...
+/// Greatest number of sessions that a terminal shows in full.
 const SESSIONS_IN_SHORT: usize = 30;
-/// ... which then has this many.
+/// Number of sessions that a terminal shows where there are more.
 const SESSIONS_SHOWN: usize = 10;
 
 const STATISTIC: &str = "Numbers of images, each a part of the one to its left. Pose: acceleration and range at the \
@@ -19,21 +19,21 @@ const STATISTIC: &str = "Numbers of images, each a part of the one to its left. 
                          selected: its sizes are fused. With marks, with sizes: of the selected images. Other marks: marked \
                          images that are not selected; where they have a pose they are measured, but not fused.";
 
-/// One session of the study. A lost one has a note, and no flow where no image was found.
+/// A session of the study. A lost one has a note, and has no flow where it has no image.
 struct Session<'a> {
     name: &'a str,
     flow: Option<Flow>,
     note: Option<String>,
 }
 
-/// The flow of every session, and of the study; none where the ledger was not read ([`Results::read_flow`]).
+/// The flow of every session and of the study; none where the ledger was not read ([`Results::read_flow`]).
 #[must_use]
 pub fn flow(results: &Results) -> Option<Table> {
     let total = results.flow.as_ref()?.total();
     Some(table(results, &sessions(results), &total))
 }
 
-/// The same for a terminal: of many sessions, those of which the smallest share of images was selected, that first.
+/// The table [`flow`] for a terminal. Of many sessions it has those with the smallest shares of selected images, in that order.
 #[must_use]
 pub fn flow_in_short(results: &Results) -> Option<Table> {
     let mut sessions = sessions(results);
@@ -51,13 +51,13 @@ pub fn flow_in_short(results: &Results) -> Option<Table> {
     Some(table)
 }
 
-/// Lost sessions and those without images before all others.
+/// The order of two sessions: lost ones and those without images come first, and then those with the smallest share selected.
 fn least_kept_first(a: &Session<'_>, b: &Session<'_>) -> Ordering {
     let [a_pct, b_pct] = [a, b].map(|session| session.flow.as_ref().and_then(Flow::selected_pct).unwrap_or(-1.0));
     a_pct.total_cmp(&b_pct).then_with(|| a.name.cmp(b.name))
 }
 
-/// The sessions of the run by name: those with images, and those of which there are none.
+/// All sessions of the run by name, with images and without.
 fn sessions(results: &Results) -> Vec<Session<'_>> {
     let statuses = &results.metadata.sessions;
     let mut sessions: BTreeMap<&str, Session<'_>> =
@@ -74,7 +74,7 @@ fn without_images(status: &SessionStatus) -> Session<'_> {
     if !status.failed {
         return Session { name, flow: Some(Flow::default()), note: None };
     }
-    let code = status.problems.last().map_or("failed", |problem| &problem.code);
+    let code = status.problems.last().map_or("failed", |problem| problem.code.code());
     let note = format!("nothing of this session could be used ({code})");
     Session { name, flow: None, note: Some(note) }
 }
@@ -106,7 +106,7 @@ fn table(results: &Results, sessions: &[Session<'_>], total: &Flow) -> Table {
     }
 }
 
-/// Narrow headings: eight columns of numbers must stand beside the names of sessions in a terminal.
+/// The heading of a step. It is narrow, since eight columns of numbers must stand beside the names of sessions in a terminal.
 pub(crate) const fn step_heading(step: FlowStep) -> &'static str {
     match step {
         FlowStep::Found => "found",
@@ -119,8 +119,8 @@ pub(crate) const fn step_heading(step: FlowStep) -> &'static str {
     }
 }
 
-/// CSV also has the share selected and the number of images left out by each reason. Where every image can be read,
-/// people need not see that column.
+/// The columns of the table. CSV also has the selected share and the number of images that each reason leaves out. Where every
+/// image can be read, people do not see the column of readable images.
 fn columns(total: &Flow) -> Vec<Column> {
     let all_readable = total.images_at(FlowStep::Readable) == total.images_at(FlowStep::Found);
     let mut columns = vec![Column::key(ROW), Column::key("session").headed("session")];
@@ -140,7 +140,7 @@ fn left_out_by() -> impl Iterator<Item = FrameReason> {
     FrameReason::ALL.iter().copied().filter(|reason| reason.ends().is_some())
 }
 
-/// The cells but the last, which has the notes.
+/// The cells of a row without the last one, which has the notes.
 fn cells(kind: RowKind, session: &str, flow: Option<&Flow>) -> Vec<Cell> {
     let count = |count: &dyn Fn(&Flow) -> usize| flow.map_or(Cell::Empty, |flow| Cell::Count(count(flow)));
     let mut cells = vec![Cell::text(kind.code()), if session.is_empty() { Cell::Empty } else { Cell::text(session) }];

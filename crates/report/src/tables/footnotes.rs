@@ -1,4 +1,4 @@
-//! Footnotes: whose they are, and their letters.
+//! Footnotes: the rows that they belong to, and their letters.
 
 use model::{Note, TableSpec};
 
@@ -9,12 +9,12 @@ use crate::table::{Cell, Footnote, RowKind, TableRow};
 pub(super) struct NotedRow {
     pub(super) kind: RowKind,
     pub(super) label: Option<String>,
-    /// The cells but the last.
+    /// The cells without the last one.
     pub(super) cells: Vec<Cell>,
     pub(super) notes: Vec<String>,
 }
 
-/// The study's notes, handed out to the rows they belong to.
+/// The study's notes, which are handed out to the rows that they belong to.
 pub(super) struct Notes<'a> {
     left: Vec<(&'a Note, bool)>,
 }
@@ -35,7 +35,7 @@ impl<'a> Notes<'a> {
         texts
     }
 
-    /// Those of an object's row at a setup.
+    /// Hands out the notes of an object's row at a setup.
     pub(super) fn of_setup(&mut self, object: &str, setup: Setup) -> Vec<String> {
         self.take(|note| {
             let names_setup = note.setup_height_mm.is_some() || note.setup_pitch_deg.is_some();
@@ -46,14 +46,14 @@ impl<'a> Notes<'a> {
         })
     }
 
-    /// Those of an object as a whole.
+    /// Hands out the notes of an object as a whole.
     pub(super) fn of_object(&mut self, object: &str) -> Vec<String> {
         self.take(|note| {
             note.setup_height_mm.is_none() && note.setup_pitch_deg.is_none() && note.object.as_deref() == Some(object)
         })
     }
 
-    /// Those of the table, and those whose row is not in it: a note is never lost.
+    /// Hands out the notes of the table, and those whose row is not in it, so that no note is lost.
     pub(super) fn rest(&mut self) -> Vec<String> {
         let mut texts = Vec::new();
         for (note, taken) in &mut self.left {
@@ -68,7 +68,7 @@ impl<'a> Notes<'a> {
     }
 }
 
-/// Gives every footnote its letter, in the order of the rows; equal texts share one.
+/// Gives every footnote its letter, in the order of the rows. Equal texts share a letter.
 pub(super) fn mark(rows: Vec<NotedRow>) -> (Vec<TableRow>, Vec<Footnote>) {
     let mut footnotes: Vec<Footnote> = Vec::new();
     let rows = rows
@@ -93,7 +93,7 @@ fn mark_of(text: &str, footnotes: &mut Vec<Footnote>) -> String {
     mark
 }
 
-/// a, b, ... z, aa, ab, ...
+/// The letters of the footnote with this index: a, b, ... z, aa, ab, ...
 fn letters(index: usize) -> String {
     let last = char::from(b'a' + u8::try_from(index % 26).unwrap_or_default());
     if index < 26 { last.to_string() } else { letters(index / 26 - 1) + &last.to_string() }

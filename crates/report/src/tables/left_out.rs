@@ -1,11 +1,11 @@
-//! Why images were left out of fused sizes: the reasons of the ledger, counted.
+//! The table `left_out`: the reasons of the ledger for which images were left out of fused sizes, counted.
 
 use model::{Flow, FlowStep, FrameReason};
 
 use crate::parquet::Results;
 use crate::table::{Cell, Column, Format, RowKind, Table, TableRow};
 
-/// The reasons that left images of the study out, in the order of the ledger; none where the ledger was not read
+/// The reasons for which images of the study were left out, in the order of the ledger; none where the ledger was not read
 /// ([`Results::read_flow`]).
 #[must_use]
 pub fn left_out(results: &Results) -> Option<Table> {
@@ -37,7 +37,7 @@ pub fn left_out(results: &Results) -> Option<Table> {
     })
 }
 
-/// A reason that left images out.
+/// The row of a reason; none where it left no image out.
 #[expect(clippy::cast_precision_loss, reason = "a count of images is far below 2^53")]
 fn row(reason: FrameReason, total: &Flow) -> Option<TableRow> {
     let ends = reason.ends()?;

@@ -1,4 +1,4 @@
-//! Methods against each other, on the same marks.
+//! The table `methods`: methods compared with each other, on the same marks.
 
 use std::collections::BTreeMap;
 
@@ -16,13 +16,13 @@ const STATISTIC: &str = "Difference: mean of |error of the first| - |error of th
 const DRAWS: usize = 1000;
 const SEED: u64 = 21;
 
-/// What both methods measured: session, image, object, rater.
+/// The thing that both methods of a pair measured: session, image, object and rater.
 type Place<'a> = (&'a str, Option<&'a str>, &'a str, &'a str);
 
-/// Errors by place, then method.
+/// Errors in per cent by place, and then by method.
 type ByPlace<'a> = BTreeMap<Place<'a>, BTreeMap<Method, f64>>;
 
-/// Every pair of methods, by level, kind and quantity.
+/// The comparison of every pair of methods, by level, kind and quantity.
 #[must_use]
 pub fn methods(results: &Results) -> Table {
     let mut errors: BTreeMap<(Level, Kind, Quantity), ByPlace<'_>> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! From results to tables.
+//! Makes tables from results.
 
 mod accuracy;
 mod agreement;
@@ -46,7 +46,7 @@ pub fn tables(results: &Results) -> Vec<Table> {
         .collect()
 }
 
-/// Puts a table together from what its layout made.
+/// Puts a table together from the columns and rows of its layout.
 fn assemble(spec: &TableSpec, results: &Results, statistic: &str, columns: Vec<Column>, rows: Vec<NotedRow>) -> Table {
     let (rows, footnotes) = footnotes::mark(rows);
     let mut remarks = Vec::new();

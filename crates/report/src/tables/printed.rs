@@ -1,4 +1,4 @@
-//! What a publication printed for a table.
+//! The numbers that a publication printed for a table.
 
 use model::{PrintedRow, PrintedSummary, TableSpec};
 
@@ -10,12 +10,12 @@ pub(super) struct Setup {
 }
 
 impl Setup {
-    /// The setup, if both numbers are there.
+    /// The setup, where both numbers are there.
     pub(super) fn from_nominal(height_mm: Option<f64>, pitch_deg: Option<f64>) -> Option<Self> {
         Some(Self { height_mm: height_mm?, pitch_deg: pitch_deg? })
     }
 
-    /// Whether two setups are one: nominal numbers, written by hand in different files.
+    /// Whether two setups are the same. Their numbers are nominal, and written by hand in different files.
     pub(super) fn is(self, other: Self) -> bool {
         is_same(self.height_mm, other.height_mm) && is_same(self.pitch_deg, other.pitch_deg)
     }

@@ -14,13 +14,13 @@ use crate::table::{Cell, Column, ROW, RowKind, Table};
 const STATISTIC: &str =
     "Error of a row: that of the raters' mean. Overall: mean \u{b1} population SD (n) of the errors of the rows.";
 
-/// A printed truth further from the study's than this is another truth, in mm.
+/// A printed truth that is further from the study's truth than this is another one. In mm.
 const SAME_TRUTH_MM: f64 = 5e-3;
 
-/// One row before it becomes cells.
+/// A row before it becomes cells.
 struct Line<'a> {
     group: Group<'a>,
-    /// Each rater's mean over sessions, in mm.
+    /// The mean over sessions of each rater, in mm.
     by_rater_mm: Vec<Option<f64>>,
     truth_mm: Option<f64>,
     printed_truth_mm: Option<f64>,
@@ -130,7 +130,7 @@ fn summary_row(
     spec: &TableSpec,
     notes: Vec<String>,
 ) -> NotedRow {
-    // What was printed overall stands beside our overall, whatever truths the publication used.
+    // The printed overall numbers stand beside our own, whatever truths the publication used.
     let printed = if kind == RowKind::Overall { printed::summary(spec, None) } else { None };
     let mut cells = vec![Cell::text(kind.code())];
     cells.extend(vec![Cell::Empty; 4 + raters.len()]); // object, quantity, raters, their mean, truth

@@ -1,4 +1,4 @@
-//! Which rows of the results a table is made from, and in which order its objects stand.
+//! The rows of the results that a table is made from, and the order of its objects.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,10 +7,10 @@ use model::{Level, Quantity, ResultRow, Selection, TableSpec};
 /// The rows of one object and quantity: a block of the table.
 pub(super) struct Group<'a> {
     pub(super) object: &'a str,
-    /// None for an object that was asked for, or printed, and has no rows at all.
+    /// None for an object that was asked for or printed, and has no rows at all.
     pub(super) quantity: Option<Quantity>,
     pub(super) rows: Vec<&'a ResultRow>,
-    /// Whether it is the object's first: what was printed for an object stands beside its first quantity.
+    /// Whether it is the object's first group. The numbers that were printed for an object stand beside its first quantity.
     pub(super) is_first: bool,
 }
 
@@ -25,8 +25,8 @@ fn rows_of<'a>(spec: &TableSpec, rows: &'a [ResultRow], level: Level) -> Vec<&'a
         .collect()
 }
 
-/// The objects in the order of the table: as the study lists them, else by name. Those that were printed but have no
-/// rows are kept, so that a lost session leaves a hole that shows.
+/// The objects in the order of the table, which is that of the study's list, or else by name. Objects that were printed but
+/// have no rows are kept, so that a lost session leaves a visible hole.
 fn objects<'a>(spec: &'a TableSpec, rows: &[&'a ResultRow]) -> Vec<&'a str> {
     if spec.objects.is_empty() {
         let printed = spec.printed.iter().flat_map(|printed| &printed.rows).map(|row| row.object.as_str());
@@ -63,7 +63,7 @@ pub(super) fn groups<'a>(spec: &'a TableSpec, rows: &'a [ResultRow], level: Leve
     groups
 }
 
-/// Whether some object has more than one quantity, so that people need to see which is which.
+/// Whether an object has more than one quantity, so that people need to see the column of quantities.
 pub(super) fn has_several_quantities(groups: &[Group<'_>]) -> bool {
     groups.iter().any(|group| !group.is_first)
 }

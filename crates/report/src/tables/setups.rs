@@ -12,7 +12,7 @@ use crate::table::{Cell, Column, Format, ROW, RowKind, Table};
 
 const STATISTIC: &str = "Per object and overall: mean \u{b1} sample SD (n - 1) of the errors of the rows.";
 
-/// One row before it becomes cells.
+/// A row before it becomes cells.
 struct Line<'a> {
     setup: Option<Setup>,
     rater: &'a str,
@@ -72,7 +72,7 @@ fn columns(with_quantity: bool, with_rater: bool, with_printed: bool) -> Vec<Col
     ]
 }
 
-/// The rows of an object, by height, pitch and rater; with the setups that were printed and not measured.
+/// The rows of an object by height, pitch and rater, with the setups that were printed and not measured.
 fn lines<'a>(group: &Group<'a>, spec: &'a TableSpec) -> Vec<Line<'a>> {
     let printed = if group.is_first { printed::rows(spec, group.object) } else { Vec::new() };
     let mut lines: Vec<Line<'a>> = Vec::new();
@@ -86,7 +86,7 @@ fn lines<'a>(group: &Group<'a>, spec: &'a TableSpec) -> Vec<Line<'a>> {
     for line in &mut lines {
         line.printed = printed.iter().copied().find(|row| is_printed_for(row, line.setup, line.rater));
     }
-    // A table of selected frames leaves out setups on purpose; any other that lacks one has lost it.
+    // A table of selected frames leaves setups out on purpose. Any other table that lacks one has lost it.
     if spec.selection == Selection::All {
         for row in printed {
             let setup = Setup::from_nominal(row.setup_height_mm, row.setup_pitch_deg);
@@ -163,7 +163,7 @@ fn overall_row(spec: &TableSpec, ours: Summary, notes: &mut Notes<'_>) -> NotedR
     NotedRow { kind: RowKind::Overall, label: Some(label), cells, notes: notes.rest() }
 }
 
-/// The cells of a row of means from `rater` to `printed_sd_pct`.
+/// The cells of a row of means, from the column `rater` to `printed_sd_pct`.
 fn summary_cells(ours: Summary, printed: Option<&model::PrintedSummary>) -> Vec<Cell> {
     let mut cells = vec![Cell::Empty; 6];
     cells.extend([

@@ -1,4 +1,4 @@
-//! The fused sizes: what a study without true sizes is run for.
+//! The table `sizes`: the fused sizes, which are the purpose of a study without true sizes.
 
 use model::{Level, ResultRow};
 
@@ -9,7 +9,7 @@ use crate::table::{Cell, Column, Format, RowKind, Table, TableRow};
 const STATISTIC: &str = "Size: robust mean of the selected images of the session, weighted by inverse variance. Sigma: its \
                          predicted standard uncertainty (k = 1). Spread: sample SD between the images.";
 
-/// The fused size of every object of every session, by rater, quantity and method.
+/// The fused sizes of every object of every session, by rater, quantity and method.
 #[must_use]
 pub fn sizes(results: &Results) -> Table {
     let fused: Vec<&ResultRow> = results.rows.iter().filter(|row| row.level == Level::Fused).collect();

@@ -36,7 +36,7 @@ pub fn plate(object: &str, low: bool, predicted_mm: Option<f64>, truth_mm: f64) 
     }
 }
 
-/// A fused height by a rater.
+/// A fused height by one rater.
 pub fn fused(object: &str, rater: &str, predicted_mm: Option<f64>, truth_mm: f64) -> ResultRow {
     ResultRow {
         level: Level::Fused,
@@ -85,7 +85,7 @@ pub fn results(rows: Vec<ResultRow>, tables: Vec<TableSpec>) -> Results {
     Results { rows, metadata, flow: None }
 }
 
-/// Two plates at two setups, one size missing: errors -5, 5 and 5 %.
+/// Two plates at two setups, with one size missing: errors of -5, 5 and 5 %.
 pub fn plates() -> Results {
     let printed = PrintedTable {
         source: "Somebody et al., Table 1".to_owned(),
@@ -122,7 +122,7 @@ pub fn plates() -> Results {
     results(rows, vec![spec])
 }
 
-/// A box seen by two raters and a bowl measured by one of them: errors 0 and 10 %; the bowl's printed truth is 55 mm.
+/// A box that two raters measured, and a bowl that one of them measured: errors of 0 and 10 %. The bowl's printed truth is 55 mm.
 pub fn raters() -> Results {
     let printed_row = |object: &str, truth_mm, error_pct| PrintedRow {
         object: object.to_owned(),

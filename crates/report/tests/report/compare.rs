@@ -1,4 +1,4 @@
-//! The gate.
+//! Tests of the gate: our tables against expected ones.
 
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-/// What a figure holds.
+/// The content of a figure.
 #[derive(Debug, Default)]
 pub struct Drawn {
     pub view_box: [f64; 2],
@@ -13,7 +13,7 @@ pub struct Drawn {
     pub parts: Vec<(String, Vec<[f64; 2]>)>,
     /// Place and words of every text.
     pub texts: Vec<([f64; 2], String)>,
-    /// What pointers show, and the title and description.
+    /// The texts that pointers show, and the title and the description of the figure.
     pub titles: Vec<String>,
 }
 
@@ -83,7 +83,7 @@ impl Drawn {
         }
     }
 
-    /// Number of paths' parts of a class that begin with an M: marks, but for crosses, which have two parts.
+    /// Number of marks: the parts of paths of a class that begin with an M. A cross has two such parts.
     pub fn marks(&self) -> usize {
         self.parts.iter().filter(|(class, _)| class == "marks").count()
     }

@@ -1,4 +1,4 @@
-//! Figures: what is drawn, of what, and what is not.
+//! Tests of figures: which data are drawn, which figures are left out, and how names are escaped.
 
 use model::results::{FrameRow, ResultRow};
 use model::{FrameReason, Level, Method, UtcNs};
@@ -19,7 +19,7 @@ pub const HOSTILE: [&str; 8] = [
     "\u{8336}\u{7897}-\u{1f35c}",
 ];
 
-/// An image at a time in seconds.
+/// An image at this time in seconds.
 fn frame(session: &str, time_s: i64, pitch_deg: Option<f64>, reason: FrameReason) -> FrameRow {
     FrameRow {
         time_utc: Some(UtcNs((1_700_000_000 + time_s) * 1_000_000_000)),
@@ -57,7 +57,7 @@ fn named<'a>(figures: &'a Figures, name: &str) -> &'a Figure {
     figures.drawn.iter().find(|figure| figure.name == name).unwrap_or_else(|| panic!("no {name}"))
 }
 
-/// Everything that must hold of any figure.
+/// Checks all that must hold for any figure, and returns its content.
 fn check(figure: &Figure) -> Drawn {
     let drawn = Drawn::parse(&figure.svg);
     let name = &figure.name;
@@ -130,7 +130,7 @@ fn every_row_has_a_mark() {
     }
 }
 
-/// By hand: errors of -5, 5 and 5 % (-9, 9 and 10 mm), of which 6 mm were claimed.
+/// The numbers are computed by hand: errors of -5, 5 and 5 % (-9, 9 and 10 mm), with a claimed uncertainty of 6 mm.
 #[test]
 fn numbers_in_the_words_are_those_of_the_tables() {
     let mut results = bench::plates();
@@ -182,7 +182,7 @@ fn names_mean_nothing_to_a_page() {
     assert_eq!(all.drawn.len(), 9);
     for figure in &all.drawn {
         let drawn = check(figure);
-        // What was escaped comes back as it was.
+        // Escaped names come back unchanged.
         if figure.name == "selected_share" {
             let has = |name: &str| drawn.texts.iter().any(|(_, text)| text == name);
             assert!(has(HOSTILE[0]) && has(HOSTILE[2]) && has(HOSTILE[7]) && has("(no name)"), "{:?}", drawn.texts);

@@ -1,4 +1,4 @@
-//! A folder of tables.
+//! Tests of a folder of tables.
 
 use model::TableLayout;
 use report::{WriteError, write_dir};
@@ -42,7 +42,7 @@ fn every_table_says_what_it_is_and_how_its_statistics_are_defined() {
         let caption = text("tex").split("\\caption{").nth(1).unwrap().split("}\n\\label").next().unwrap().to_owned();
         let (title, statistic) = caption.split_once(". ").unwrap();
         assert!(!title.is_empty() && statistic.ends_with('.') && statistic.len() > 60, "{name}: {caption}");
-        // The same sentences, but for what LaTeX and Markdown escape.
+        // The sentences are the same, apart from characters that LaTeX and Markdown escape.
         let first = statistic.split([':', '\\']).next().unwrap();
         assert!(text("md").starts_with("### ") && text("md").contains(first), "{name}: {first}");
     }

@@ -1,6 +1,8 @@
-//! What became of the images.
+//! Tests of the flow of images, as tables and as bars.
 
-use model::{FrameReason, FrameRow, Problem, ResultSink as _, RunLog, RunMetadata, SessionStatus, Severity, Stage};
+use model::{
+    FrameReason, FrameRow, Problem, ProblemCode, ResultSink as _, RunLog, RunMetadata, SessionStatus, Severity, Stage,
+};
 use report::{
     ParquetSink, ReadError, Results, Table, compare, csv, flow, flow_bars, flow_in_short, frames_file, latex, left_out,
     terminal, terminal_set, write_dir,
@@ -18,7 +20,7 @@ fn metadata() -> RunMetadata {
     let problem = Problem {
         severity: Severity::Loss,
         stage: Stage::Ingest,
-        code: "missing_card".to_owned(),
+        code: ProblemCode::MissingCard,
         place: "cards/c".to_owned(),
         fact: "no card".to_owned(),
         remedy: "copy it".to_owned(),
@@ -38,7 +40,7 @@ fn frames() -> Vec<FrameRow> {
     ]
 }
 
-/// Written to files and read back, as a run does.
+/// Results that are written to files and read back, as a run does.
 fn read(metadata: &RunMetadata, frames: Vec<FrameRow>) -> Results {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("results.parquet");

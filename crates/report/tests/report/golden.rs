@@ -1,4 +1,5 @@
-//! What the renderers draw. `INSTA_UPDATE=always cargo test -p aim-batch-report` rewrites; read the change before it is kept.
+//! The output of the renderers, frozen. `INSTA_UPDATE=always cargo test -p aim-batch-report` rewrites it; read the change before
+//! you keep it.
 
 use report::{csv, error_by_height, error_by_pitch, latex, markdown, tables, terminal, terminal_set};
 

@@ -1,4 +1,4 @@
-//! Tests of the crate from outside, in one binary: each would link Polars.
+//! Tests of the crate from outside. They are one binary, since each binary must link Polars.
 #![allow(clippy::unwrap_used, clippy::float_cmp, reason = "a test fails by panicking; exact values are meant")]
 
 extern crate aim_batch_report as report;

@@ -1,4 +1,4 @@
-//! Files that are not ours, damaged, or not where they should be.
+//! Tests of files that are not ours, are damaged, or are not in their place.
 
 use std::fs;
 use std::path::Path;

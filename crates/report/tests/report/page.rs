@@ -1,4 +1,4 @@
-//! The page: what a browser need not be asked for.
+//! Tests of the page that need no browser.
 
 use std::path::Path;
 

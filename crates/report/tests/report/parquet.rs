@@ -1,4 +1,4 @@
-//! Rows to Parquet and back.
+//! Tests of rows that go to Parquet and back.
 
 use model::results::{Column, ColumnType, FRAME_COLUMNS, FrameRow, RESULT_COLUMNS, ResultRow, Row, Value};
 use model::{FrameReason, Kind, Level, Method, Quantity, ResultSink as _, RunLog, RunMetadata, Shape, UtcNs, Verdict};
@@ -7,7 +7,7 @@ use report::{ParquetSink, Results, read_frames};
 
 use crate::bench;
 
-/// Texts that a column can hold; none for any.
+/// The texts that a column can hold; none where it can hold any.
 fn codes(column: &str) -> Option<Vec<&'static str>> {
     Some(match column {
         "kind" => Kind::ALL.iter().map(|code| code.code()).collect(),

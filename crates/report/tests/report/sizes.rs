@@ -1,4 +1,4 @@
-//! The table of fused sizes.
+//! Tests of the table of fused sizes.
 
 use report::{csv, sizes};
 

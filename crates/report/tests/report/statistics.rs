@@ -1,4 +1,4 @@
-//! The numbers in the tables, against numbers computed by hand or printed in the paper.
+//! Tests of the numbers in the tables against numbers that were computed by hand or printed in the paper.
 
 use model::results::ResultRow;
 use model::{Kind, Quantity, Selection, TableLayout, TableSpec};
@@ -85,7 +85,7 @@ fn images_of_one_setup_and_rater_count_once_with_their_mean() {
         bench::plate("p", true, Some(180.0), 200.0),
         bench::plate("p", true, Some(200.0), 200.0),
         ResultRow { rater: "ben".to_owned(), ..bench::plate("p", true, Some(210.0), 200.0) },
-        // No nominal setup: not a row of this layout.
+        // A row without a nominal setup is no row of this layout.
         bench::row("p", Kind::Plate, Quantity::Diameter, Some(1.0), 200.0),
     ];
     let table = tables(&bench::results(rows, vec![spec])).remove(0);
@@ -175,7 +175,7 @@ fn without_truth_there_is_no_error_and_a_note_without_row_is_kept() {
     assert!(error_by_pitch(&results).rows.is_empty());
 }
 
-/// Mean absolute errors of all plates per band, from the paper's own rows.
+/// The mean absolute errors of all plates by band, from the paper's own rows.
 #[test]
 fn errors_by_pitch_and_height_of_the_paper() {
     let results = bench::paper_plates();

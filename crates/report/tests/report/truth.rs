@@ -1,4 +1,4 @@
-//! truth.parquet there and back.
+//! Tests of writing truth.parquet and reading it back.
 
 use model::results::TruthRow;
 use model::{Kind, Shape, UtcNs};

@@ -1,4 +1,4 @@
-//! Accuracy, raters and methods, against numbers worked out by hand.
+//! Tests of the tables accuracy, rater_agreement and methods against numbers that were computed by hand.
 
 use model::results::ResultRow;
 use model::{Level, Method};
@@ -40,7 +40,8 @@ fn errors_coverage_and_intervals() {
     // Only both of a, both of b, or one of each can be drawn.
     near("bias_low_pct", 0.0);
     near("bias_high_pct", 4.0);
-    // The doubtful one claims nothing: 2 of 3 within 1 sigma are none but -2 of 3 mm; 1.96 sigma hold 2 of 1.5 mm as well.
+    // A size with a doubt claims nothing. Of the other three, one is within 1 sigma (-2 mm of 3 mm), and two are within 1.96 sigma
+    // (also 2 mm of 1.5 mm).
     near("claimed", 3.0);
     near("within_68_pct", 100.0 / 3.0);
     near("within_95_pct", 200.0 / 3.0);

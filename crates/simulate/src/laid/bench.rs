@@ -1,4 +1,4 @@
-//! `bench`: nine setups, eight objects each.
+//! The preset `bench`: nine setups with eight objects each.
 
 use nalgebra::Point2;
 use rand::Rng;
@@ -10,25 +10,27 @@ use super::plan::{Plan, Use, random};
 use super::{table, things};
 use crate::sensors::{HeadPose, Motion};
 
-/// Heights of the camera and its pitches.
+/// Heights of the camera above the table.
 const HEIGHTS_MM: [f64; 3] = [380.0, 440.0, 500.0];
+/// Pitches of the camera.
 const PITCHES_DEG: [f64; 3] = [45.0, 55.0, 65.0];
 
-/// Time of the first picture and from one to the next.
+/// Seconds from the start of a session to its first picture.
 const FIRST_S: f64 = 5.25;
+/// Seconds from one picture to the next.
 const PERIOD_S: f64 = 10.0;
 
 /// Number of sessions.
 pub(super) const SESSIONS: usize = HEIGHTS_MM.len() * PITCHES_DEG.len();
 
-/// Nine sessions of one setup each, one picture of every object, each on another table in other light. The containers are
-/// empty; something else lies beside most of them.
+/// Nine sessions of one setup each, with one picture of every object, each on another table in other light. The containers are
+/// empty, and other things lie beside most of them.
 #[must_use]
 pub fn bench(seed: u64, width_px: u32) -> Vec<Plan> {
     (0..SESSIONS).map(|number| session(seed, width_px, number)).collect()
 }
 
-/// One of them.
+/// The session with this number, from 0 to 8.
 pub(super) fn session(seed: u64, width_px: u32, number: usize) -> Plan {
     let (height_mm, pitch_deg) = (HEIGHTS_MM[number / PITCHES_DEG.len()], PITCHES_DEG[number % PITCHES_DEG.len()]);
     let head = HeadPose { pitch_deg, roll_deg: 0.0, range_mm: height_mm / pitch_deg.to_radians().sin() };

@@ -1,10 +1,11 @@
-//! The eight containers of both presets.
+//! The eight containers of the presets `bench` and `worn`.
 
 use model::{Kind, Shape};
 
 use super::ware::{Wall, Ware};
 
-/// Names and sizes. Plates and bowls differ in all that changes how a rim looks: flange or none, well, wall, foot, thickness.
+/// Names and sizes. Plates and bowls differ in everything that changes the look of a rim: flange or none, well, wall, foot and
+/// thickness.
 pub(super) const WARES: [(&str, Ware); 8] = [
     ("dinner plate", plate(268.0, 24.0, 150.0, 184.0)),
     ("side plate", plate(192.0, 19.0, 108.0, 128.0)),

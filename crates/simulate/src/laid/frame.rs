@@ -1,4 +1,4 @@
-//! One picture to be taken: world, camera, and what is true of it.
+//! A picture to be taken: its world, its camera and its truth.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
@@ -16,24 +16,26 @@ use crate::study::LabeledLine;
 use crate::world::World;
 use crate::world::photo::{Exposure, Station, photograph};
 
-/// Places along a rim that are looked at for what hides it, and how near to one is the rim itself.
+/// Number of places along a rim at which it is checked whether something hides the rim.
 const RIM_PLACES: u32 = 90;
+/// A surface as near as this to such a place is the rim itself.
 const RIM_ITSELF_MM: f64 = 12.0;
 
-/// Half of the range sensor's cone (VL53L0X data sheet: 25 degrees), and rings and rays of it.
+/// Half of the angle of the range sensor's cone (VL53L0X data sheet: 25 degrees).
 const HALF_CONE_RAD: f64 = 12.5 * PI / 180.0;
+/// Number of rings of the cone, and of rays in each ring.
 const CONE_RAYS: (u32, u32) = (6, 16);
 
-/// A container in a world.
+/// A container that stands in a world.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
     /// Its name.
     pub object: Arc<str>,
     /// Its form.
     pub ware: Ware,
-    /// Where its axis meets the table, in the frame of [`Frame::world`].
+    /// The point where its axis meets the table, in the frame of [`Frame::world`].
     pub at_mm: Point2<f64>,
-    /// Its turn about the axis, radians.
+    /// Its turn about the axis, in radians.
     pub turn_rad: f64,
 }
 
@@ -42,55 +44,55 @@ pub struct Placed {
 pub struct Frame {
     /// Seconds since the session's start.
     pub time_s: f64,
-    /// What is there.
+    /// The world that it shows.
     pub world: World,
-    /// Its containers.
+    /// The containers in that world.
     pub placed: Vec<Placed>,
-    /// Drinking glasses beside them.
+    /// The drinking glasses beside them.
     pub vessels: Vec<Vessel>,
-    /// Pose of the camera.
+    /// The pose of the camera.
     pub head: HeadPose,
-    /// Where the camera stands above the table, and its turn about Z.
+    /// The place of the camera above the table in mm, and its turn about Z in radians.
     pub stand: (Point2<f64>, f64),
-    /// What the camera does.
+    /// The exposure of the camera.
     pub exposure: Exposure,
-    /// Of rays and noise.
+    /// Seed of rays and noise.
     pub seed: u64,
 }
 
-/// What is true of a container in a picture. The world frame is that of the picture's pose: the camera above the origin.
+/// The truth of a container in a picture. The world frame is that of the picture's pose, with the camera above the origin.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Truth {
     /// Name, as in objects.csv.
     pub object: Arc<str>,
-    /// Plate, bowl or box.
+    /// Whether it is a plate, a bowl or a box.
     pub kind: Kind,
-    /// Circle, square or rectangle.
+    /// Whether its outline is a circle, a square or a rectangle.
     pub shape: Shape,
-    /// Of round ones.
+    /// Diameter of a round container.
     pub true_diameter_mm: Option<f64>,
-    /// Side of a square, short side of a rectangle.
+    /// Side of a square, or short side of a rectangle.
     pub true_width_mm: Option<f64>,
     /// Long side of a rectangle.
     pub true_length_mm: Option<f64>,
-    /// From the table to the top.
+    /// Height from the table to the top.
     pub true_height_mm: f64,
     /// Height at which the rim is widest.
     pub rim_level_mm: f64,
-    /// Where the axis meets the table.
+    /// X, to the right, of the point where the axis meets the table.
     pub center_x_mm: f64,
-    /// Away from the wearer.
+    /// Y, away from the wearer, of that point.
     pub center_y_mm: f64,
-    /// Turn of the long side from the right towards away; 0 for what is round.
+    /// Turn of the long side from the right towards the direction away from the wearer; 0 for round containers.
     pub turn_deg: f64,
-    /// Share of the rim inside the picture.
+    /// Share of the rim that is inside the picture, from 0 to 1.
     pub rim_in_picture: f64,
-    /// Share of the rim inside the picture and not hidden.
+    /// Share of the rim that is inside the picture and not hidden, from 0 to 1.
     pub rim_seen: f64,
 }
 
 impl Frame {
-    /// The camera at its pose.
+    /// The view of `camera` at the pose of the picture.
     ///
     /// # Errors
     /// [`SimulateError::Pose`], which would be a fault of the preset.
@@ -101,7 +103,7 @@ impl Frame {
         Ok(View::new(*camera, pose))
     }
 
-    /// Takes the picture.
+    /// The picture, as it is taken.
     #[must_use]
     pub fn photograph(&self, view: &View) -> Picture {
         photograph(&self.world, view.camera(), &self.station(view), &self.exposure, self.seed)
@@ -111,13 +113,13 @@ impl Frame {
         Station::new(view.pose(), self.stand.0, self.stand.1)
     }
 
-    /// What is true of each container.
+    /// The truth of each container.
     #[must_use]
     pub fn truths(&self, view: &View) -> Vec<Truth> {
         self.placed.iter().map(|placed| self.truth(view, placed)).collect()
     }
 
-    /// From the world's frame to that of the view.
+    /// A point of the table in the frame of the view, from its place in the frame of the world.
     #[must_use]
     pub fn in_view(&self, point: Point2<f64>) -> Point2<f64> {
         Rotation2::new(-self.stand.1) * Point2::from(point - self.stand.0)
@@ -144,7 +146,7 @@ impl Frame {
         }
     }
 
-    /// Shares of the rim that lie in the picture, and that are seen there.
+    /// The share of the rim that lies in the picture, and the share that is seen there.
     fn rim_shares(&self, view: &View, placed: &Placed) -> (f64, f64) {
         let [width, height] = view.camera().size_px().map(f64::from);
         let origin = self.station(view).origin_mm;
@@ -162,8 +164,8 @@ impl Frame {
         (f64::from(inside) / f64::from(RIM_PLACES), f64::from(seen) / f64::from(RIM_PLACES))
     }
 
-    /// The marks of someone who never errs: the rim across, each way if it is a rectangle, and of a box the height of the wall
-    /// nearest to the camera. Those that would lie outside the picture are left out.
+    /// The marks of a rater who never errs: the rim across (both ways, where it is a rectangle), and of a box the height of the wall
+    /// nearest to the camera. Marks that would lie outside the picture are left out.
     #[must_use]
     pub fn marks(&self, view: &View) -> Vec<LabeledLine> {
         let [width, height] = view.camera().size_px().map(f64::from);
@@ -181,8 +183,8 @@ impl Frame {
         drawn.collect()
     }
 
-    /// What the range sensor reads here without noise: the mean distance over its cone, weighed by the light that comes back
-    /// from matt surfaces (docs/signals.md), over all that stands in it.
+    /// The reading of the range sensor without noise, in mm: the mean distance over its cone, with all that stands in it, weighted
+    /// by the light that comes back from matt surfaces (docs/signals.md).
     #[must_use]
     pub fn cone_mm(&self, view: &View) -> f64 {
         let Station { origin_mm, world_from_camera } = self.station(view);
@@ -205,7 +207,7 @@ impl Frame {
 }
 
 impl Placed {
-    /// A point of the rim: of a rectangle, where a ray from its middle leaves it.
+    /// The point of the rim in a direction. For a rectangle it is where a ray from the middle leaves it.
     fn rim_point(&self, angle: f64) -> Point3<f64> {
         let (half_x, half_y) = (0.5 * self.ware.diameter_mm, 0.5 * self.ware.width_mm);
         let unit = Vector2::new(angle.cos(), angle.sin());
@@ -218,7 +220,7 @@ impl Placed {
         Point3::new(at.x, at.y, self.ware.rim_level_mm())
     }
 
-    /// Quantities and the ends of the lines that show them to a camera above `stand`.
+    /// The quantities, and the ends of the lines that show them to a camera above `stand`.
     fn lines(&self, stand: Point2<f64>) -> impl Iterator<Item = (Quantity, [Point3<f64>; 2])> {
         let across = |angle: f64| [self.rim_point(angle + PI), self.rim_point(angle)];
         let lines: &[(Quantity, f64)] = match self.ware.shape {

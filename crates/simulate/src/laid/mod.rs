@@ -1,8 +1,9 @@
-//! The presets `bench` and `worn`: laid tables as hard as real ones, seen by sensors that err as real ones do. Truth beside them.
+//! The presets `bench` and `worn`: laid tables that are as hard as real ones, recorded by sensors that err as real ones do, with
+//! their truth.
 //!
-//! [`bench()`] and [`worn()`] plan sessions: every [`Frame`] is a world, a pose and an exposure, and can be photographed and
-//! asked for the truth without any file. [`write()`] makes a study of them. Everything follows from the seed alone, for any
-//! number of threads.
+//! [`bench()`] and [`worn()`] plan sessions. Every [`Frame`] is a world, a pose and an exposure; it can be photographed, and it
+//! gives the truth, without any file. [`write()`] makes a study of them. Everything follows from the seed alone, for any number
+//! of threads.
 
 mod bench;
 mod catalogue;
@@ -32,10 +33,11 @@ pub use worn::worn;
 
 use crate::sensors::HeadPose;
 
-/// Periods of a living head's sway, in seconds, and their shares.
+/// Periods of the sway of a living head, in seconds, and their shares of its amplitude.
 const SWAYS: [(f64, f64); 3] = [(4.3, 0.5), (1.9, 0.3), (0.8, 0.2)];
 
-/// A head that sways about its pose by up to `amplitude_deg`, at the height it has. `number` tells sessions apart.
+/// The pose at a time of a head that sways about `head` by up to `amplitude_deg`, at the same height. `number` tells sessions
+/// apart.
 fn sway(head: HeadPose, amplitude_deg: f64, number: usize, time_s: f64) -> HeadPose {
     if amplitude_deg <= 0.0 {
         return head;

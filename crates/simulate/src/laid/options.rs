@@ -13,33 +13,33 @@ use crate::error::SimulateError;
 use crate::render::JPEG_QUALITY;
 use crate::study::Simulated;
 
-/// Which of both.
+/// One of the two presets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LaidPreset {
-    /// Nine setups, eight objects each, empty; the head is a stand.
+    /// Nine setups with eight empty objects each. The camera is on a stand.
     Bench,
-    /// So many sessions of people eating, with so many images each.
+    /// Sessions of people who eat.
     Worn {
-        /// Sessions, 1 to 10,000.
+        /// Number of sessions, 1 to 10,000.
         sessions: u32,
-        /// Images of each, 1 to 2000.
+        /// Number of images of each session, 1 to 2000.
         images: u32,
     },
 }
 
-/// What is made.
+/// The options of both presets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LaidOptions {
-    /// Which preset.
+    /// The preset.
     pub preset: LaidPreset,
-    /// Of all randomness.
+    /// Seed of all randomness.
     pub seed: u64,
-    /// Width and height of the pictures, 64 to 8192 px. The field of view is the AIM-2's whatever the size.
+    /// Width and height of the pictures, 64 to 8192 px. The field of view is AIM-2's for any size.
     pub size_px: [u32; 2],
 }
 
 impl LaidOptions {
-    /// Default size of the pictures: half the AIM-2's each way.
+    /// Default size of the pictures, which is half of AIM-2's each way.
     pub const SIZE_PX: [u32; 2] = [1296, 972];
 
     fn check(&self) -> Result<(), SimulateError> {
@@ -68,7 +68,7 @@ impl LaidOptions {
         }
     }
 
-    /// Sessions, and images of all.
+    /// The number of sessions, and that of all images.
     fn extent(&self) -> (usize, u64) {
         match self.preset {
             LaidPreset::Bench => (bench::SESSIONS, (bench::SESSIONS * WARES.len()) as u64),
@@ -84,11 +84,12 @@ impl LaidOptions {
     }
 }
 
-/// Focal length over width and height of the sensor: the AIM-2's (Raju et al., Table I), and a lens of the division model.
+/// Focal length over width and over height of the sensor, which are AIM-2's (Raju et al., Table I).
 const FOCAL_OVER_SIDE: [f64; 2] = [2.4 / 3.67, 2.4 / 2.74];
 const CAMERA: &str = "laid-camera";
 const CAMERA_FILE: &str = "devices/laid-camera.toml";
 
+/// The text of the camera file. The lens has the division model.
 fn camera_toml([width_px, height_px]: [u32; 2]) -> String {
     let [width, height] = [width_px, height_px].map(f64::from);
     format!(
@@ -113,8 +114,8 @@ pub fn camera(size_px: [u32; 2]) -> Result<Camera, SimulateError> {
 }
 
 /// Writes the study into `out`, a folder that is empty or does not exist yet. `progress` is called after each picture with the
-/// number done and their total. The bytes are the same for any number of threads. Memory: a picture's light (12 bytes per
-/// pixel, twice), the plans of a session (some 10 kB per picture) and the truth.
+/// number of pictures that are done and the total number. The bytes are the same for any number of threads. Memory holds the
+/// light of a picture (12 bytes per pixel, twice), the plan of a session (some 10 kB per picture) and the truth.
 ///
 /// # Errors
 /// [`SimulateError::Option`] for an option out of range, [`SimulateError::NotEmpty`] for a folder with something in it,

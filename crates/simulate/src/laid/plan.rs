@@ -1,4 +1,4 @@
-//! A session before it is written, and its lots.
+//! The plan of a session before it is written, and its streams of randomness.
 
 use model::UtcNs;
 use rand::SeedableRng;
@@ -7,31 +7,32 @@ use rand_chacha::ChaCha8Rng;
 use super::frame::Frame;
 use crate::sensors::Motion;
 
-/// 2026-02-02 08:00:00 UTC, and from one session to the next.
+/// Start of the first session, 2026-02-02 08:00:00 UTC.
 const FIRST_START: UtcNs = UtcNs(1_770_019_200_000_000_000);
+/// Seconds from the start of one session to that of the next.
 const SESSION_PERIOD_S: f64 = 6.0 * 3600.0;
 
-/// A session.
+/// The plan of a session.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// Its name.
     pub name: String,
-    /// Height (mm) and pitch (degrees) of a bench's setup.
+    /// Height in mm and pitch in degrees of the setup, on a bench.
     pub setup: Option<(f64, f64)>,
-    /// Who wears the camera; on a bench nobody.
+    /// The person who wears the camera; none on a bench.
     pub participant: Option<String>,
-    /// How the head moves.
+    /// Motion of the head.
     pub motion: Motion,
-    /// Sway of a living head about that, in degrees (amplitude).
+    /// Amplitude of the sway of a living head about that motion.
     pub sway_deg: f64,
     /// Its pictures, in the order of time.
     pub frames: Vec<Frame>,
-    /// Its place among the sessions.
+    /// Its number among the sessions, from 0.
     pub number: usize,
 }
 
 impl Plan {
-    /// When it starts.
+    /// The time at which it starts.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a few sessions")]
     pub fn start(&self) -> UtcNs {
@@ -39,7 +40,7 @@ impl Plan {
     }
 }
 
-/// What the randomness is used for: each use has its own stream, so that one does not depend on another's length.
+/// A use of randomness. Each use has a stream of its own, so that none depends on the length of another.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Use {
     Scene,
@@ -51,7 +52,7 @@ pub(super) enum Use {
     Food,
 }
 
-/// A stream of randomness, for the `of`-th session or picture.
+/// The stream of randomness for a use in the `of`-th session or picture.
 pub(super) fn random(seed: u64, what: Use, of: usize) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream((of as u64) << 8 | what as u64);

@@ -1,4 +1,4 @@
-//! What the sensors of a session store: with the errors that real ones have.
+//! The packets that the sensors of a session store, with the errors of real sensors.
 
 use model::Camera;
 use rand::Rng;
@@ -12,40 +12,46 @@ use crate::sensors::{
     HeadPose, MOUNT_PITCH_DEG, PACKET_PERIOD_S, encode_packet, packet_sample_times_s, posix_s, up_in_device,
 };
 
-/// ADXL362: counts per g at +-2 g.
+/// Counts of the ADXL362 per g, in the range of +-2 g.
 const COUNTS_PER_G: f64 = 1000.0;
-/// VL53L0X: a reading every 33 ms, and the code for no target.
+/// Seconds from one reading of the VL53L0X to the next.
 const READING_S: f64 = 0.033;
+/// Code of the VL53L0X for no target.
 const NO_TARGET: i16 = 8190;
-/// The range sensor starts later than the accelerometer, so that their packets do not line up.
+/// Seconds by which the range sensor starts later than the accelerometer, so that their packets do not line up.
 const RANGE_STARTS_S: f64 = 0.375;
-/// Recording goes on after the last picture.
+/// Seconds for which the recording goes on after the last picture.
 const AFTER_S: f64 = 6.0;
 
-/// How the sensors of a study err.
+/// The errors of the sensors of a study.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SensorErrors {
-    /// Accelerometer: offset of each axis, in mg; where none is given, each session draws its own with this SD.
+    /// Zero-g offset of each axis of the accelerometer; none where each session draws its own.
     pub zero_g_offset_mg: Option<[f64; 3]>,
+    /// SD of the zero-g offsets that sessions draw.
     pub zero_g_offset_sd_mg: f64,
-    /// SD of a sample, in mg.
+    /// SD of a sample of the accelerometer.
     pub acceleration_noise_mg: f64,
-    /// Range sensor: its own scale less one; where none is given, each session draws it with this SD.
+    /// Scale of the range sensor less one; none where each session draws its own.
     pub range_scale: Option<f64>,
+    /// SD of the scales that sessions draw.
     pub range_scale_sd: f64,
-    /// SD of a reading: as a share of the distance, and at least.
+    /// SD of a reading of the range sensor, as a share of the distance.
     pub range_noise: f64,
+    /// Least SD of a reading of the range sensor.
     pub range_noise_least_mm: f64,
-    /// Shares of readings that are lost, and that are held for another period.
+    /// Share of the readings that are lost.
     pub range_lost: f64,
+    /// Share of the readings that are held for another period.
     pub range_held: f64,
-    /// The furthest that it reads.
+    /// The greatest distance that the range sensor reads.
     pub range_furthest_mm: f64,
 }
 
 impl Default for SensorErrors {
-    /// ADXL362: noise of 550 ug/sqrt Hz over 50 Hz, zero-g offsets after soldering (data sheet, table 1: up to 35 mg on X and Y;
-    /// most are smaller). VL53L0X: ranging errors of its data sheet, table 11, and a reach over dark things.
+    /// The errors of typical sensors. ADXL362: a noise of 550 ug/sqrt Hz over 50 Hz, and zero-g offsets after soldering (data sheet,
+    /// table 1: up to 35 mg on X and Y; most are smaller). VL53L0X: the ranging errors of its data sheet, table 11, and its reach
+    /// over dark surfaces.
     fn default() -> Self {
         Self {
             zero_g_offset_mg: None,
@@ -83,7 +89,7 @@ impl Plan {
             .take_while(move |start| *start < end_s)
     }
 
-    /// The accelerometer's packets: gravity, noise, zero-g offset.
+    /// The packets of the accelerometer, with gravity, noise and zero-g offset.
     pub(super) fn acceleration(&self, seed: u64, errors: &SensorErrors) -> Vec<Vec<u8>> {
         let mut random = random(seed, Use::Acceleration, self.number);
         let drawn: [f64; 3] = std::array::from_fn(|_| errors.zero_g_offset_sd_mg * normal(&mut random));
@@ -104,8 +110,8 @@ impl Plan {
         self.packet_starts_s(0.0).map(packet).collect()
     }
 
-    /// The range sensor's packets: its cone over what stands there at each picture, and in between in proportion to the way
-    /// to the table; noise, scale, held and lost readings.
+    /// The packets of the range sensor. At each picture it reads its cone over the things there, and in between in proportion to the
+    /// distance to the table. Noise, scale, and held and lost readings are added.
     pub(super) fn range(
         &self,
         seed: u64,
@@ -145,7 +151,7 @@ impl Plan {
     }
 }
 
-/// Between the nearest two of (time, value), and the end's beyond them.
+/// The value at a time, interpolated between the nearest two of (time, value). Beyond the ends it is that of the end.
 fn between(values: &[(f64, f64)], time_s: f64) -> f64 {
     let next = values.partition_point(|(at, _)| *at <= time_s);
     match (next.checked_sub(1).and_then(|i| values.get(i)), values.get(next)) {

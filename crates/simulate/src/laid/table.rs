@@ -1,4 +1,4 @@
-//! A table, its light and the camera's exposure, drawn by lot.
+//! Random tables, their light, and the camera's exposure.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -10,25 +10,27 @@ use super::ware::Ware;
 use crate::world::photo::Exposure;
 use crate::world::{Light, Material, Rgb, Texture, World};
 
-/// Boards, cloths and stone that tables have.
+/// Colours of wood, between the grain and in it.
 const WOODS: [[Rgb; 2]; 4] = [
     [[0.5, 0.33, 0.18], [0.36, 0.21, 0.1]],
     [[0.25, 0.13, 0.07], [0.14, 0.07, 0.04]],
     [[0.65, 0.53, 0.38], [0.52, 0.39, 0.25]],
     [[0.4, 0.2, 0.1], [0.26, 0.12, 0.05]],
 ];
+/// Colours of cloths and of their stripes.
 const CLOTHS: [[Rgb; 2]; 4] = [
     [[0.75, 0.73, 0.68], [0.5, 0.1, 0.1]],
     [[0.2, 0.27, 0.4], [0.65, 0.65, 0.62]],
     [[0.6, 0.55, 0.42], [0.35, 0.3, 0.2]],
     [[0.22, 0.32, 0.2], [0.6, 0.58, 0.4]],
 ];
+/// Colours of stone and of its speckles.
 const STONES: [[Rgb; 2]; 3] = [
     [[0.62, 0.61, 0.59], [0.3, 0.3, 0.3]],
     [[0.08, 0.08, 0.09], [0.4, 0.4, 0.4]],
     [[0.42, 0.4, 0.36], [0.6, 0.58, 0.55]],
 ];
-/// Grounds of tableware.
+/// Colours of the ground of tableware.
 const GLAZES: [Rgb; 7] = [
     [0.82, 0.81, 0.78],
     [0.8, 0.77, 0.7],
@@ -40,7 +42,7 @@ const GLAZES: [Rgb; 7] = [
 ];
 const PRINTS: [Rgb; 4] = [[0.1, 0.18, 0.45], [0.45, 0.3, 0.08], [0.12, 0.3, 0.15], [0.4, 0.08, 0.1]];
 
-/// A table with nothing on it.
+/// A random table with nothing on it.
 pub(super) fn bare(random: &mut impl Rng) -> World {
     let seed = random.random();
     let table = match random.random_range(0..5) {
@@ -79,7 +81,7 @@ fn light(random: &mut impl Rng) -> Light {
     }
 }
 
-/// The glaze of a container: plain, speckled, or with rings and motifs printed on it.
+/// A random glaze of a container: plain, speckled, or with printed rings and motifs.
 pub(super) fn glaze(random: &mut impl Rng, ware: &Ware) -> Material {
     let ground = GLAZES[random.random_range(0..GLAZES.len())];
     let print = PRINTS[random.random_range(0..PRINTS.len())];
@@ -104,8 +106,8 @@ pub(super) fn glaze(random: &mut impl Rng, ware: &Ware) -> Material {
     Material::glazed(texture)
 }
 
-/// What the camera does to a picture that is so many pixels wide. `motion`: the head's turn while it is taken, as a share of
-/// the width (SD).
+/// A random exposure of a picture that is `width_px` wide. `motion` is the SD of the head's motion while the picture is taken, as
+/// a share of the width.
 pub(super) fn exposure(random: &mut impl Rng, width_px: u32, motion: f64) -> Exposure {
     let width = f64::from(width_px);
     let mut normal = || -> f64 { StandardNormal.sample(random) };

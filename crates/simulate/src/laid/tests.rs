@@ -1,4 +1,4 @@
-//! What the presets promise.
+//! Tests of the promises of the presets.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -59,7 +59,8 @@ fn any_number_of_threads_gives_the_same_bytes_and_another_seed_gives_others() {
     assert_ne!(written(2, 5), written(2, 6));
 }
 
-/// The rendered rim lies where the camera's own mathematics puts it: just inside of it the container is met, outside not.
+/// The rendered rim lies where the mathematics of the camera puts it: a ray just inside of it meets the container, and one
+/// outside does not.
 #[test]
 fn rims_appear_where_the_truth_says() {
     for frame in
@@ -83,7 +84,7 @@ fn rims_appear_where_the_truth_says() {
     }
 }
 
-/// Over a bare table, the cone's reading is that of the closed form in docs/signals.md.
+/// Over a bare table, the reading of the cone is that of the closed form in docs/signals.md.
 #[test]
 fn the_cone_reads_what_the_signals_document_says() {
     for (pitch_deg, expected) in [(40.0_f64, 0.9792), (55.0, 1.0002), (70.0, 1.0087)] {

@@ -1,13 +1,13 @@
-//! How the pose of a worn camera wanders from picture to picture.
+//! The walk of a worn camera's pose from picture to picture.
 
 use rand::Rng;
 
 use crate::sensors::HeadPose;
 
-/// Share of its way back to rest that the pitch goes from one picture to the next.
+/// Share of the way back to the pitch of rest that the pitch goes from one picture to the next.
 const PULL: f64 = 0.3;
 
-/// A bounded walk about a pitch of rest, and about whatever height the head has. Ranges are (least, most).
+/// A bounded random walk of the pitch about a pitch of rest, and of the height. Ranges are (least, most).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Walk {
     pub first_pitch_deg: (f64, f64),
@@ -21,7 +21,7 @@ pub(super) struct Walk {
 }
 
 impl Walk {
-    /// So many poses in the order of time.
+    /// A random series of `number` poses in the order of time.
     pub fn poses(&self, random: &mut impl Rng, number: usize) -> Vec<HeadPose> {
         let mut pitch_deg = between(random, self.first_pitch_deg);
         let mut height_mm = between(random, self.first_height_mm);
@@ -38,7 +38,7 @@ impl Walk {
     }
 }
 
-/// A number of a range that may be a single point.
+/// A random number from a range that may be a single point.
 pub(super) fn between(random: &mut impl Rng, (least, most): (f64, f64)) -> f64 {
     if least < most { random.random_range(least..most) } else { least }
 }

@@ -1,4 +1,4 @@
-//! Tableware and boxes: forms from a few sizes.
+//! Tableware and boxes: forms that follow from a few sizes.
 
 use model::{Kind, Quantity, Shape};
 use nalgebra::Point2;
@@ -6,48 +6,49 @@ use nalgebra::Point2;
 use super::rectangular;
 use crate::world::{Body, Form, Material, Turned};
 
-/// How a bowl's wall rises from foot to rim.
+/// The form of a bowl's wall from foot to rim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wall {
-    /// A cone; upright where foot and rim are as wide.
+    /// A cone. It is upright where foot and rim have the same width.
     Straight,
-    /// Steeper towards the rim, as part of an ellipse: 1 a quarter of it, 0 a cone.
+    /// A wall that is steeper towards the rim, as a part of an ellipse: a quarter of it for 1, and a cone for 0.
     Curved(f64),
 }
 
-/// A container: its true sizes in mm, and what they leave open.
+/// A container, given by its true sizes and by the parts of its form that they leave open.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ware {
-    /// Plate, bowl or box.
+    /// Whether it is a plate, a bowl or a box.
     pub kind: Kind,
     /// Its outline from above.
     pub shape: Shape,
-    /// Largest diameter of a round rim; side of a square, long side of a rectangle.
+    /// Largest diameter of a round rim, side of a square, or long side of a rectangle.
     pub diameter_mm: f64,
-    /// Short side of a rectangle; else the same as the diameter.
+    /// Short side of a rectangle, and else the same as the diameter.
     pub width_mm: f64,
-    /// From the table to the top of the rim.
+    /// Height from the table to the top of the rim.
     pub height_mm: f64,
-    /// Diameter of the foot ring, or of the foot; of a rectangular plate the foot's long side.
+    /// Diameter of the foot ring or of the foot; for a rectangular plate, the long side of the foot.
     pub foot_mm: f64,
     /// Height of the foot ring.
     pub foot_ring_mm: f64,
-    /// Of plates: diameter or long side of the well; the same as the diameter for a coupe without a flange.
+    /// Diameter or long side of a plate's well. It is the same as the diameter for a coupe, which has no flange.
     pub well_mm: f64,
     /// Thickness of wall and rim.
     pub thickness_mm: f64,
-    /// Of bowls.
+    /// Form of a bowl's wall.
     pub wall: Wall,
 }
 
-/// Height of a foot ring that is not given.
+/// Height of a foot ring where none is given.
 pub(super) const FOOT_RING_MM: f64 = 3.0;
-/// Lines along a curved wall, and around half of a rounded rim.
+/// Number of lines along a curved wall.
 const WALL_LINES: u32 = 10;
+/// Number of lines around half of a rounded rim.
 const LIP_LINES: u32 = 6;
 
 impl Ware {
-    /// A plate with a rim 5 mm thick. `long_short_mm`: both the diameter, where it is round.
+    /// A plate with a rim that is 5 mm thick. Both of the sizes across are the diameter where the plate is round.
     pub(super) const fn plate(
         shape: Shape,
         [diameter_mm, width_mm]: [f64; 2],
@@ -59,7 +60,7 @@ impl Ware {
         Self { kind, shape, diameter_mm, width_mm, height_mm, foot_mm, foot_ring_mm, well_mm, thickness_mm, wall }
     }
 
-    /// A round bowl with a wall 4 mm thick.
+    /// A round bowl with a wall that is 4 mm thick.
     pub(super) const fn bowl(diameter_mm: f64, height_mm: f64, foot_mm: f64, wall: Wall) -> Self {
         let (kind, shape, foot_ring_mm, thickness_mm) = (Kind::Bowl, Shape::Circle, FOOT_RING_MM, 4.0);
         let (width_mm, well_mm) = (diameter_mm, foot_mm);
@@ -72,7 +73,7 @@ impl Ware {
         self.shape == Shape::Circle
     }
 
-    /// Its size along one of the directions that its shape has; none for the others, and for a height.
+    /// The size in one of the directions that the shape has; none for other directions, and for a height.
     #[must_use]
     pub fn across_mm(&self, quantity: Quantity) -> Option<f64> {
         match (self.shape, quantity) {
@@ -82,13 +83,13 @@ impl Ware {
         }
     }
 
-    /// Height of the level at which the rim is widest: the rounded edge of what is turned lies half a thickness below the top.
+    /// Height of the level at which the rim is widest. The rounded edge of a round container lies half a thickness below the top.
     #[must_use]
     pub fn rim_level_mm(&self) -> f64 {
         if self.is_round() { self.height_mm - 0.5 * self.thickness_mm } else { self.height_mm }
     }
 
-    /// Height and radius of the surface of food that fills it so far (from 0 to 1).
+    /// Height and radius of the surface of food that fills a `share` of the container, from 0 to 1.
     #[must_use]
     pub fn filled_mm(&self, share: f64) -> [f64; 2] {
         let floor = self.foot_ring_mm + self.thickness_mm;
@@ -100,7 +101,7 @@ impl Ware {
         [z, inner]
     }
 
-    /// The container on the table, turned about Z.
+    /// The bodies of the container on the table, turned about Z.
     #[must_use]
     pub fn bodies(&self, at_mm: Point2<f64>, turn_rad: f64, material: &Material) -> Vec<Body> {
         match self.kind {
@@ -115,7 +116,7 @@ impl Ware {
         Body { form: Form::Turned(Turned::new(at_mm, profile)), material: material.clone() }
     }
 
-    /// Outer radius of a bowl's wall at a height.
+    /// The outer radius of a bowl's wall at a height.
     fn wall_radius_mm(&self, z_mm: f64) -> f64 {
         let (foot, rim) = (0.5 * self.foot_mm, 0.5 * self.diameter_mm);
         let ring = self.foot_ring_mm;
@@ -127,7 +128,7 @@ impl Ware {
         foot + (rim - foot) * reach
     }
 
-    /// From the foot ring up the outside, around the rim, and down the inside.
+    /// The profile of a bowl: from the foot ring up the outside, around the rim, and down the inside.
     fn bowl_profile(&self) -> Vec<[f64; 2]> {
         let (foot, t) = (0.5 * self.foot_mm, self.thickness_mm);
         let level = self.rim_level_mm();
@@ -143,7 +144,7 @@ impl Ware {
         profile
     }
 
-    /// From the foot ring along the underside, around the rim, down the flange to the well.
+    /// The profile of a plate: from the foot ring along the underside, around the rim, and down the flange to the well.
     fn plate_profile(&self) -> Vec<[f64; 2]> {
         let (foot, rim, well, t) = (0.5 * self.foot_mm, 0.5 * self.diameter_mm, 0.5 * self.well_mm, self.thickness_mm);
         let (ring, level) = (self.foot_ring_mm, self.rim_level_mm());
@@ -169,7 +170,7 @@ impl Ware {
         profile
     }
 
-    /// The rounded rim, from its outside over its top to its inside.
+    /// The profile of the rounded rim, from its outside over its top to its inside.
     fn lip(&self, radius_mm: f64) -> Vec<[f64; 2]> {
         let half = 0.5 * self.thickness_mm;
         let angle = |line: u32| f64::from(line) / f64::from(LIP_LINES) * std::f64::consts::PI;

@@ -1,4 +1,4 @@
-//! `worn`: people eating, with the camera on their eyeglasses.
+//! The preset `worn`: people who eat, with the camera on their eyeglasses.
 
 use nalgebra::{Point2, Point3, Vector3};
 use rand::Rng;
@@ -13,13 +13,14 @@ use super::{sway, table, things};
 use crate::sensors::{HeadPose, Motion};
 use crate::world::{Rgb, World};
 
-/// Time of the first picture and from one to the next.
+/// Seconds from the start of a session to its first picture.
 const FIRST_S: f64 = 10.25;
+/// Seconds from one picture to the next.
 const PERIOD_S: f64 = 10.0;
-/// Between two pictures the head takes so long to turn.
+/// Seconds that the head takes to turn between two pictures.
 const TURN_S: f64 = 3.0;
 
-/// Eyes turn to the plate and wander from it.
+/// The walk of the head, which turns to the plate and wanders from it.
 const WALK: Walk = Walk {
     first_pitch_deg: (40.0, 65.0),
     pitch_deg: (20.0, 80.0),
@@ -32,18 +33,19 @@ const WALK: Walk = Walk {
 };
 /// Sway of the head while it rests, in degrees.
 const SWAY_DEG: f64 = 0.25;
-/// Share of a session's pictures before the meal is on the table, and after it is taken away.
+/// Share of a session's pictures before the meal is on the table, and share after it is taken away.
 const WITHOUT: (f64, f64) = (0.15, 0.1);
 
 const SKINS: [Rgb; 4] = [[0.62, 0.42, 0.32], [0.45, 0.27, 0.18], [0.7, 0.5, 0.4], [0.22, 0.12, 0.08]];
 
-/// So many sessions of so many pictures each, 10 s apart. A session has one or two containers with food that becomes less.
+/// So many sessions of so many pictures each, which are 10 s apart. A session has one or two containers with food that becomes
+/// less.
 #[must_use]
 pub fn worn(seed: u64, width_px: u32, sessions: usize, images: usize) -> Vec<Plan> {
     (0..sessions).map(|number| session(seed, width_px, number, images)).collect()
 }
 
-/// One of them.
+/// The session with this number, from 0.
 pub(super) fn session(seed: u64, width_px: u32, number: usize, images: usize) -> Plan {
     let mut lot = random(seed, Use::Scene, number);
     let meal = Meal::laid(&mut lot);
@@ -129,7 +131,8 @@ impl Meal {
         }
     }
 
-    /// In most pictures a hand: over the rim, or with a spoon or fork above the food; in some both.
+    /// Adds hands to the world of a picture. In most pictures there is one, over the rim or with a spoon or fork above the food, and
+    /// in some there are both.
     fn hands(&self, random: &mut ChaCha8Rng, world: &mut World) {
         let near = self.placed[0].at_mm;
         let radius = 0.5 * self.placed[0].ware.diameter_mm;
@@ -145,12 +148,12 @@ impl Meal {
                 near.y - random.random_range(0.1..0.7) * radius,
                 height + random.random_range(8.0..60.0),
             );
-            world.bodies.extend(things::Hand::drawn(random, tip, elbow, self.skin).bodies());
+            world.bodies.extend(things::Hand::random(random, tip, elbow, self.skin).bodies());
             if random.random_bool(0.5) {
                 let turn = std::f64::consts::FRAC_PI_2 * (1.0 + side * random.random_range(0.2..0.7));
                 let grip = tip - Vector3::new(0.0, 60.0, -20.0);
                 let rise = random.random_range(-0.5..0.0);
-                world.bodies.extend(things::Cutlery::drawn(random, grip, turn, rise).bodies());
+                world.bodies.extend(things::Cutlery::random(random, grip, turn, rise).bodies());
             }
         }
     }

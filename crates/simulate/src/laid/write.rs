@@ -1,4 +1,4 @@
-//! Plans -> a study on disk.
+//! Writes a study to disk from the plans of its sessions.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -15,31 +15,33 @@ use crate::study::{ObjectRow, Simulated, StudyFolder, Summary, image_stem, label
 
 const RATER: &str = "exact";
 
-/// All that a study is made of.
+/// Everything that a study is made from.
 pub(super) struct Laid<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Name of its camera, the camera's file as text, and what that says.
+    /// Name of its camera.
     pub camera_name: &'a str,
+    /// Text of the camera's file.
     pub camera_toml: &'a str,
+    /// The camera that the file describes.
     pub camera: Camera,
-    /// Its containers, by their names.
+    /// Its containers, with their names.
     pub wares: Vec<(Arc<str>, Ware)>,
-    /// Number of its sessions, and of the images of all.
+    /// Number of its sessions, and number of all images.
     pub extent: (usize, u64),
-    /// A session by its number.
+    /// A function that returns the plan of a session from its number.
     pub plan: &'a dyn Fn(usize) -> Plan,
-    /// Of the sensors' noise.
+    /// Seed of the noise of the sensors.
     pub seed: u64,
     pub sensors: SensorErrors,
-    /// 1 to 100.
+    /// Quality of the JPEG pictures, from 1 to 100.
     pub jpeg_quality: u8,
-    /// The scene file that it was made from.
+    /// The scene file that the study is made from, if it is made from one.
     pub scene: Option<&'a [u8]>,
 }
 
 impl Laid<'_> {
-    /// Writes the study into `out`. `progress` is called after each picture with the number done and their total.
+    /// Writes the study into `out`. `progress` is called after each picture with the number that are done and the total number.
     pub(super) fn write(&self, out: &Path, progress: &(dyn Fn(u64, u64) + Sync)) -> Result<Simulated, SimulateError> {
         let folder = StudyFolder::create(out)?;
         self.write_study_files(&folder)?;
@@ -92,7 +94,7 @@ impl Laid<'_> {
         folder.write(&format!("{card}/SENSORS/RNG0001.BIN"), &range.concat())
     }
 
-    /// Writes a picture and its marks. Gives what is true of it, and whether it is marked.
+    /// Writes a picture and its marks. Returns its truth, and whether it is marked.
     fn write_frame(
         &self,
         folder: &StudyFolder,
@@ -114,7 +116,7 @@ impl Laid<'_> {
     }
 }
 
-/// A string of TOML.
+/// The text as a string of TOML.
 fn quoted(text: &str) -> String {
     toml::Value::from(text).to_string()
 }

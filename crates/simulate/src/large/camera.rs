@@ -9,8 +9,8 @@ use crate::error::SimulateError;
 const FOCAL_MM: f64 = 2.4;
 const SENSOR_MM: [f64; 2] = [3.67, 2.74];
 
-/// The camera file: scales in px/mm are the picture's size over the sensor's, the principal point is the middle, and there
-/// is no distortion.
+/// The text of the camera file. Its scales in px/mm are the size of the picture over that of the sensor, its principal point is
+/// the middle, and it has no distortion.
 pub(super) fn camera_toml([width_px, height_px]: [u32; 2]) -> String {
     let [width, height] = [width_px, height_px].map(f64::from);
     format!(
@@ -34,7 +34,7 @@ pub(super) fn camera_toml([width_px, height_px]: [u32; 2]) -> String {
     )
 }
 
-/// The camera that a camera file describes.
+/// The camera that the text of a camera file describes.
 pub(super) fn camera_of(toml: &str) -> Result<Camera, SimulateError> {
     let spec: CameraSpec =
         toml::from_str(toml).map_err(|source| SimulateError::CameraFile { name: CAMERA_FILE, source })?;

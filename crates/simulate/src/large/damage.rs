@@ -1,20 +1,23 @@
-//! What happens to cards and marks, and what `aim-batch run` says of it (docs/devices.md, docs/simulate.md).
+//! Damage to cards and marks, and the problems that `aim-batch run` reports for it (docs/devices.md, docs/simulate.md).
 
+use model::ProblemCode;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
 use crate::sensors::{PACKET_PERIOD_S, SAMPLES_PER_PACKET};
 
-/// Every so many pictures are harmed where pictures are, the first one (which is marked) among them.
+/// Where pictures are harmed, one in so many is, beginning with the first one, which is marked.
 const PICTURES_HARMED_EVERY: usize = 3;
 
-/// Bytes of a stamp, and of the accelerometer's packets: 4 channels of 16 bit.
+/// Number of bytes of a stamp.
 const STAMP_BYTES: usize = 8;
+/// Number of bytes of a packet of the accelerometer, with 4 channels of 16 bit.
 const ACCELERATION_PACKET_BYTES: usize = STAMP_BYTES + 4 * 2 * SAMPLES_PER_PACKET;
+/// Number of bytes of a packet of the range sensor.
 const RANGE_PACKET_BYTES: usize = STAMP_BYTES + 2 * SAMPLES_PER_PACKET;
 
-/// A kind of damage. Each makes a run tell a loss, whatever the seed and the number of images.
+/// A kind of damage. Each kind makes a run report a loss, for any seed and any number of images.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Damage {
@@ -22,13 +25,13 @@ pub enum Damage {
     CutAcceleration,
     /// Every third picture ends half way through its scan.
     CutPictures,
-    /// session.toml ends inside a value.
+    /// The file session.toml ends inside a value.
     BadSessionToml,
     /// The range sensor's files are nothing but zeros.
     ZeroRange,
     /// The card has none of the accelerometer's files.
     NoAcceleration,
-    /// The marks' files end half way.
+    /// The files of marks end half way.
     CutMarks,
     /// A packet of the accelerometer is random bytes.
     GarbagePacket,
@@ -44,11 +47,11 @@ pub enum Damage {
     LostBytes,
     /// The card has no pictures.
     NoPictures,
-    /// The marks' labels name an object that objects.csv does not have.
+    /// The labels of marks name an object that objects.csv does not have.
     UnknownObject,
 }
 
-/// A sensor's record is stored in two files.
+/// A sensor. Its record is stored in two files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sensor {
     Acceleration,
@@ -65,7 +68,7 @@ pub(super) enum SessionFile {
 }
 
 impl Damage {
-    /// All kinds, in the order in which damaged sessions take them.
+    /// All kinds, in the order in which damaged sessions get them.
     pub const ALL: [Self; 14] = [
         Self::CutAcceleration,
         Self::CutPictures,
@@ -88,27 +91,27 @@ impl Damage {
         Self::ALL[at % Self::ALL.len()]
     }
 
-    /// The code of a problem that a run tells of such a session. There may be others, which follow from it.
+    /// The code of a problem that a run reports for such a session. There may be other problems, which follow from it.
     #[must_use]
-    pub fn code(self) -> &'static str {
+    pub fn code(self) -> ProblemCode {
         match self {
-            Self::CutAcceleration => "truncated_packet",
-            Self::CutPictures => "damaged_image",
-            Self::BadSessionToml => "bad_session_toml",
-            Self::ZeroRange => "zero_blocks",
-            Self::NoAcceleration | Self::NoPictures => "no_files",
-            Self::EmptyCard => "card_does_not_fit_profile",
-            Self::CutMarks => "marks_malformed",
-            Self::GarbagePacket => "bad_stamp",
-            Self::WrongSize => "wrong_size",
-            Self::ClockSetBack => "ambiguous_time",
-            Self::ZeroPictures => "not_an_image",
-            Self::LostBytes => "lost_alignment",
-            Self::UnknownObject => "unknown_object",
+            Self::CutAcceleration => ProblemCode::TruncatedPacket,
+            Self::CutPictures => ProblemCode::DamagedImage,
+            Self::BadSessionToml => ProblemCode::BadSessionToml,
+            Self::ZeroRange => ProblemCode::ZeroBlocks,
+            Self::NoAcceleration | Self::NoPictures => ProblemCode::NoFiles,
+            Self::EmptyCard => ProblemCode::CardDoesNotFitProfile,
+            Self::CutMarks => ProblemCode::MarksMalformed,
+            Self::GarbagePacket => ProblemCode::BadStamp,
+            Self::WrongSize => ProblemCode::WrongSize,
+            Self::ClockSetBack => ProblemCode::AmbiguousTime,
+            Self::ZeroPictures => ProblemCode::NotAnImage,
+            Self::LostBytes => ProblemCode::LostAlignment,
+            Self::UnknownObject => ProblemCode::UnknownObject,
         }
     }
 
-    /// What is written in place of a file's `bytes`; none if it is not written at all.
+    /// The bytes that are written in place of a file's `bytes`; none where the file is not written at all.
     pub(super) fn apply(self, file: SessionFile, mut bytes: Vec<u8>, random: &mut ChaCha8Rng) -> Option<Vec<u8>> {
         use SessionFile::{Marks, Packets, Picture, Toml};
         const ACCELERATION: Sensor = Sensor::Acceleration;
@@ -140,22 +143,22 @@ impl Damage {
     }
 }
 
-/// Leaves a JPEG picture its header and half of what comes after.
+/// Cuts a JPEG picture, so that its header and half of the rest are left.
 fn cut_in_scan(bytes: &mut Vec<u8>) {
     const START_OF_SCAN: [u8; 2] = [0xff, 0xda];
     let scan = bytes.windows(2).position(|marker| marker == START_OF_SCAN).unwrap_or_default();
     bytes.truncate(usize::midpoint(scan, bytes.len()));
 }
 
-/// Random bytes in place of the first packet, none below 0x80: a stamp of such bytes is a negative number, which is no time
-/// (one in four stamps of any bytes would be one in 1970).
+/// Puts random bytes in place of the first packet. None is below 0x80, since a stamp of such bytes is a negative number, which is
+/// no time. (Of stamps of any bytes, one in four would be a time in 1970.)
 fn garbage(bytes: &mut [u8], random: &mut ChaCha8Rng) {
     for byte in bytes.iter_mut().take(ACCELERATION_PACKET_BYTES) {
         *byte = random.random_range(0x80..=0xff);
     }
 }
 
-/// Sets all stamps of a file back by half of what it lasts, and a little.
+/// Sets all stamps of a file back by a little more than half of the time that it lasts.
 fn set_back(bytes: &mut [u8], sensor: Sensor) {
     let packet_bytes = match sensor {
         Sensor::Acceleration => ACCELERATION_PACKET_BYTES,

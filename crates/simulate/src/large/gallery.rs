@@ -1,4 +1,4 @@
-//! The pictures of one container: drawn once from a few poses, then taken again and again in other light.
+//! The pictures of one container, which are drawn once from a few poses, and then taken again and again in other light.
 
 use model::{Camera, Pose, View};
 use rand::Rng;
@@ -11,23 +11,24 @@ use crate::render::{Picture, Renderer};
 use crate::sensors::HeadPose;
 use crate::study::LabeledLine;
 
-/// Poses of each container within 5 degrees of 55, and as many outside the target window of 55 +- 7.5 degrees.
+/// Number of poses of each container within 5 degrees of 55. There are as many outside the target window of 55 +- 7.5 degrees.
 pub(super) const NEAR_POSES: usize = 4;
 const NEAR_PITCH_DEG: (f64, f64) = (50.0, 60.0);
 const FAR_PITCHES_DEG: [(f64, f64); 2] = [(37.0, 46.0), (64.0, 73.0)];
 const ROLL_DEG: (f64, f64) = (-4.0, 4.0);
 const CAMERA_HEIGHT_MM: (f64, f64) = (360.0, 480.0);
 
-/// Exposures vary by this part of the light, colours by that.
+/// Range of the exposure, as a factor of the light.
 const EXPOSURE: (f64, f64) = (0.85, 1.08);
+/// Range of the gain of each colour, as a factor of the exposure.
 const WHITE_BALANCE: (f64, f64) = (0.97, 1.03);
 
-/// SD of a pixel's noise, in levels, and the number of values before it repeats. A prime number, so that it does not line up
-/// with the rows of a picture.
+/// SD of a pixel's noise, in levels.
 const NOISE_LEVELS: f64 = 1.5;
+/// Number of values before the noise repeats. It is prime, so that the noise does not line up with the rows of a picture.
 const NOISE_VALUES: usize = 65_537;
 
-/// A container seen from one pose.
+/// A container as it is seen from one pose.
 #[derive(Debug, Clone)]
 pub(super) struct Sight {
     pub head: HeadPose,
@@ -35,7 +36,7 @@ pub(super) struct Sight {
     pub marks: Vec<LabeledLine>,
 }
 
-/// Sights of one container; the first [`NEAR_POSES`] lie near the target pitch.
+/// The sights of one container. The first [`NEAR_POSES`] of them lie near the target pitch.
 #[derive(Debug, Clone)]
 pub(super) struct Gallery {
     pub sights: Vec<Sight>,
@@ -57,7 +58,7 @@ impl Gallery {
     }
 }
 
-/// A pose in round numbers: pitch and roll in hundredths of a degree, the range in whole mm.
+/// A random pose in round numbers: pitch and roll in hundredths of a degree, and the range in whole mm.
 fn head_pose(random: &mut ChaCha8Rng, (from_deg, to_deg): (f64, f64)) -> HeadPose {
     let hundredths = |value: f64| (value * 100.0).round() / 100.0;
     let pitch_deg = hundredths(random.random_range(from_deg..to_deg));
@@ -80,7 +81,7 @@ fn sight(object: &Object, camera: &Camera, renderer: &Renderer, head: HeadPose) 
     Ok(Sight { head, picture: renderer.render(&object.scene(&view), &pose), marks })
 }
 
-/// Noise that all pictures of a study share, each from another place on.
+/// The noise that all pictures of a study share. Each picture begins at another place of it.
 #[derive(Debug, Clone)]
 pub(super) struct Noise {
     levels: Vec<i16>,
@@ -93,7 +94,7 @@ impl Noise {
         Self { levels: (0..NOISE_VALUES).map(level).collect() }
     }
 
-    /// The same picture in other light and with other noise.
+    /// The picture in other light and with other noise.
     pub(super) fn taken_anew(&self, picture: &Picture, random: &mut ChaCha8Rng) -> Picture {
         let exposure = random.random_range(EXPOSURE.0..EXPOSURE.1);
         let gains: [f64; 3] = std::array::from_fn(|_| exposure * random.random_range(WHITE_BALANCE.0..WHITE_BALANCE.1));
@@ -109,7 +110,7 @@ impl Noise {
     }
 }
 
-/// What each level becomes when the light is `gain` times as strong.
+/// For each level, the level that it becomes when the light is `gain` times as strong.
 #[expect(clippy::cast_possible_truncation, reason = "at most some hundred")]
 fn curve(gain: f64) -> Vec<i16> {
     (0..=u8::MAX).map(|level| (f64::from(level) * gain).round() as i16).collect()

@@ -1,8 +1,8 @@
-//! The preset `large`: many sessions for load tests, some of them damaged if that is asked for.
+//! The preset `large`: many sessions for load tests, some of which are damaged where that is asked for.
 //!
-//! A few poses of each container are drawn once; every image is one of those in its own light and with its own noise. The
-//! sensors follow the poses, the marks are exact, and everything true is written beside the study. What comes out for a
-//! session follows from the seed and its number, so that any number of threads gives the same bytes.
+//! A few poses of each container are drawn once. Every image is one of those, in its own light and with its own noise. The
+//! sensors follow the poses, the marks are exact, and the truth is written beside the study. A session follows from the seed and
+//! its number alone, so that any number of threads gives the same bytes.
 
 mod camera;
 mod damage;
@@ -46,15 +46,14 @@ struct DamagedRow<'a> {
 impl<'a> DamagedRow<'a> {
     fn from_session(session: &'a Session) -> Option<Self> {
         let kind = session.damage?;
-        Some(Self { session: &session.name, kind, code: kind.code() })
+        Some(Self { session: &session.name, kind, code: kind.code().code() })
     }
 }
 
 /// Writes the study into `out`, a folder that is empty or does not exist yet. `progress` is called after each session, from
-/// any thread, with the number of sessions done and their total.
+/// any thread, with the number of sessions that are done and the total number.
 ///
-/// Memory: eight pictures, the rays of one, and what the sessions in work need: their packets (10 kB per image) and a
-/// picture.
+/// Memory holds eight pictures, the rays of one, and for each session at work its packets (10 kB per image) and a picture.
 ///
 /// # Errors
 /// [`SimulateError::Option`] for an option out of range, [`SimulateError::NotEmpty`] for a folder with something in it,

@@ -1,4 +1,4 @@
-//! The containers of the study: their sizes, how they stand on the table, and their exact marks.
+//! The containers of the study: their sizes, their places on the table, and their exact marks.
 
 use model::{Kind, Quantity, Shape, View, ViewError};
 use nalgebra::{Point2, Point3, Vector2};
@@ -7,25 +7,25 @@ use serde::Serialize;
 use crate::scene::{Bowl, Colour, Outline, Plate, Scene, Solid, Tub};
 use crate::study::{LabeledLine, ObjectRow};
 
-/// Foot radius of a bowl, as a share of its rim radius.
+/// Radius of a bowl's foot, as a share of that of its rim.
 const FOOT_SHARE: f64 = 0.6;
 
-/// A container.
+/// A container of the study.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Object {
     pub name: &'static str,
     pub kind: Kind,
     pub shape: Shape,
-    /// The size across that is marked: diameter, side, or long side.
+    /// The size across that is marked: the diameter, the side, or the long side.
     span_mm: f64,
-    /// Short side, of a rectangle.
+    /// Short side of a rectangle.
     width_mm: Option<f64>,
     height_mm: Option<f64>,
     colour: Colour,
 }
 
-/// Plates have no height that could be measured. A bowl's wall is not upright, so that only its diameter is marked, and its
-/// rim height is given beforehand; a box has both.
+/// The containers of the study. Plates have no height that could be measured. The wall of a bowl is not upright, so only its
+/// diameter is marked, and its rim height is given beforehand. Of a box both are marked.
 pub(super) const OBJECTS: [Object; 5] = [
     Object::plate("dinner plate", Shape::Circle, 240.0, [238.0, 234.0, 224.0]),
     Object::plate("side plate", Shape::Circle, 170.0, [214.0, 222.0, 232.0]),
@@ -50,7 +50,7 @@ pub(super) const OBJECTS: [Object; 5] = [
     },
 ];
 
-/// True sizes, as in objects.csv and truth.parquet.
+/// True sizes of a container, as in objects.csv and truth.parquet.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(super) struct TrueSizes {
     pub true_diameter_mm: Option<f64>,
@@ -88,7 +88,7 @@ impl Object {
         }
     }
 
-    /// The container with its middle where the optical axis meets the table.
+    /// The scene of the container with its middle at the point where the optical axis meets the table.
     pub(super) fn scene(&self, view: &View) -> Scene {
         let center_mm = axis_point_mm(view);
         let half_mm = 0.5 * self.span_mm;
@@ -108,7 +108,7 @@ impl Object {
         Scene { solid, colour: self.colour }
     }
 
-    /// The marks of someone who never errs: the size across on the rim's plane, and of a box the height of its near wall.
+    /// The marks of a rater who never errs: the size across on the rim's plane, and of a box the height of its near wall.
     pub(super) fn marks(&self, view: &View) -> Result<Vec<LabeledLine>, ViewError> {
         let center_mm = axis_point_mm(view);
         let rim_z_mm = self.height_mm.unwrap_or_default();
@@ -138,7 +138,7 @@ impl Object {
     }
 }
 
-/// Where the optical axis meets the table.
+/// The point where the optical axis meets the table, in mm.
 fn axis_point_mm(view: &View) -> Point2<f64> {
     Point2::new(0.0, view.pose().camera_height_mm() / view.pose().pitch_rad().tan())
 }

@@ -1,26 +1,26 @@
-//! How large the study is.
+//! Options of the preset `large`.
 
 use std::ops::RangeInclusive;
 
 use crate::error::SimulateError;
 
-/// Limits that keep a session's sensor packets and the pictures of one object in memory.
+/// Limits of the options, which keep the packets of a session and the pictures of one object in memory.
 const SESSIONS: RangeInclusive<u32> = 1..=100_000;
 const IMAGES: RangeInclusive<u32> = 1..=2000;
 const SIDE_PX: RangeInclusive<u32> = 32..=4096;
 
-/// How the study is made.
+/// The options of the preset `large`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LargeOptions {
-    /// Seed of everything random. The same options give the same study.
+    /// Seed of all randomness. The same options give the same study.
     pub seed: u64,
-    /// Sessions, 1 to 100,000.
+    /// Number of sessions, 1 to 100,000.
     pub sessions: u32,
-    /// Images of each session, 1 to 2000, one every 10 s.
+    /// Number of images of each session, 1 to 2000. There is one every 10 s.
     pub images: u32,
     /// Width and height of the pictures, 32 to 4096 px each.
     pub size_px: [u32; 2],
-    /// Share of the sessions that are damaged, 0 to 100 %.
+    /// Share of the sessions that are damaged, in per cent from 0 to 100.
     pub damage_pct: f64,
 }
 
@@ -32,7 +32,7 @@ impl Default for LargeOptions {
 }
 
 impl LargeOptions {
-    /// Refuses what is out of range.
+    /// Refuses options that are out of range.
     pub(super) fn check(&self) -> Result<(), SimulateError> {
         let [width, height] = self.size_px;
         let numbers = [
@@ -55,7 +55,7 @@ impl LargeOptions {
         Ok(())
     }
 
-    /// How many sessions are damaged: the share, rounded, halves up.
+    /// The number of sessions that are damaged: the share of all, rounded, with halves up.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of the sessions")]
     pub(super) fn damaged_sessions(&self) -> usize {
         (f64::from(self.sessions) * self.damage_pct / 100.0).round() as usize

@@ -1,4 +1,4 @@
-//! What a session consists of, before anything is written. It follows from the seed and the session's number alone.
+//! The plan of a session, before anything is written. It follows from the seed and the number of the session alone.
 
 use model::UtcNs;
 use rand::seq::SliceRandom;
@@ -11,25 +11,28 @@ use super::objects::OBJECTS;
 use super::options::LargeOptions;
 use crate::sensors::{HeadPose, Motion};
 
-/// 2026-01-05 08:00:00 UTC, and from one session to the next.
+/// Start of the first session, 2026-01-05 08:00:00 UTC.
 const FIRST_START: UtcNs = UtcNs(1_767_600_000_000_000_000);
+/// Seconds from the start of one session to that of the next.
 const SESSION_PERIOD_S: f64 = 6.0 * 3600.0;
 
-/// Sessions of one participant, one after the other.
+/// Number of sessions of one participant, which come one after the other.
 const SESSIONS_PER_PARTICIPANT: usize = 10;
 
-/// Seconds from the session's start to its first image, and from one to the next; not a multiple of a sample's period.
+/// Seconds from the start of a session to its first image, which are not a multiple of a sample's period.
 const FIRST_IMAGE_S: f64 = 10.25;
+/// Seconds from one image to the next.
 const IMAGE_PERIOD_S: f64 = 10.0;
 
-/// Room between two images for the head to turn.
+/// Seconds between two images in which the head can turn.
 const TURN_S: f64 = 1.6;
 
-/// Every third image is seen from near the target pitch; of those, the first and about half of the others are marked.
+/// One image in so many is taken near the target pitch.
 const NEAR_EVERY: usize = 3;
+/// Of the images near the target pitch, the first one is marked, and about this share of the others.
 const MARKED_SHARE: f64 = 0.5;
 
-/// What the randomness is used for: each use has its own stream, so that one does not depend on another's length.
+/// A use of randomness. Each use has a stream of its own, so that none depends on the length of another.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Use {
     Damaged,
@@ -42,23 +45,23 @@ pub(super) enum Use {
     Damage,
 }
 
-/// A stream of randomness, for the `of`-th session or object.
+/// The stream of randomness for a use in the `of`-th session, or for the `of`-th object.
 pub(super) fn random(seed: u64, what: Use, of: usize) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream((of as u64) << 8 | what as u64);
     random
 }
 
-/// One image.
+/// An image to be taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Shot {
-    /// Which of its container's sights it shows.
+    /// Index of the sight of its container that it shows.
     pub sight: usize,
-    /// Whether the rater marked it.
+    /// Whether the rater has marked it.
     pub marked: bool,
 }
 
-/// One session: one card of one container.
+/// A session, which is one card with pictures of one container.
 #[derive(Debug, Clone)]
 pub(super) struct Session {
     pub number: usize,
@@ -68,7 +71,7 @@ pub(super) struct Session {
 }
 
 impl Session {
-    /// All sessions. The damaged ones are drawn by lot, and take the kinds of damage in turn.
+    /// All sessions. The damaged ones are drawn by lot, and get the kinds of damage in turn.
     pub(super) fn all(options: &LargeOptions) -> Vec<Self> {
         let count = options.sessions as usize;
         let mut lot: Vec<usize> = (0..count).collect();
@@ -86,7 +89,7 @@ impl Session {
             .collect()
     }
 
-    /// Which of [`OBJECTS`] it sees.
+    /// Index in [`OBJECTS`] of the container that the session shows.
     pub(super) fn object(&self) -> usize {
         self.number % OBJECTS.len()
     }
@@ -108,13 +111,13 @@ impl Session {
     }
 }
 
-/// When an image is taken, since the session's start.
+/// The time of the `at`-th image in seconds since the start of the session.
 #[expect(clippy::cast_precision_loss, reason = "some thousand images")]
 pub(super) fn image_time_s(at: usize) -> f64 {
     FIRST_IMAGE_S + at as f64 * IMAGE_PERIOD_S
 }
 
-/// A head that rests at each image's pose and turns in between.
+/// The motion of a head that rests at the pose of each image and turns in between.
 pub(super) fn motion(heads: impl Iterator<Item = HeadPose>) -> Motion {
     let rests = heads.enumerate().map(|(at, head)| (image_time_s(at), head)).collect();
     Motion { rests, half_rest_s: 0.5 * (IMAGE_PERIOD_S - TURN_S) }

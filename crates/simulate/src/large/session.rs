@@ -1,4 +1,4 @@
-//! A session's plan -> the files of its card and its marks.
+//! Writes the files of a session, its card and its marks, from its plan.
 
 use model::UtcNs;
 use model::results::TruthRow;
@@ -14,10 +14,10 @@ use crate::render::Picture;
 use crate::sensors::{HeadPose, Recording};
 use crate::study::{StudyFolder, image_stem, labelme_json};
 
-/// The one rater.
+/// The only rater.
 const RATER: &str = "R1";
 
-/// Writes the sessions of one container.
+/// A writer of the sessions of one container.
 pub(super) struct SessionWriter<'a> {
     pub folder: &'a StudyFolder,
     pub options: &'a LargeOptions,
@@ -27,7 +27,7 @@ pub(super) struct SessionWriter<'a> {
 }
 
 impl SessionWriter<'_> {
-    /// Writes card and marks, and gives the truth.
+    /// Writes the card and the marks of a session, and returns its truth.
     pub(super) fn write(&self, session: &Session) -> Result<Vec<TruthRow>, SimulateError> {
         let mut files = Files {
             folder: self.folder,
@@ -92,7 +92,7 @@ impl SessionWriter<'_> {
         Ok(self.truth(session, shot, &image, time_utc))
     }
 
-    /// What is true of an image as it was taken, before any damage.
+    /// The truth of an image as it was taken, before any damage.
     fn truth(&self, session: &Session, shot: &Shot, image: &str, time_utc: UtcNs) -> TruthRow {
         let HeadPose { pitch_deg, roll_deg, range_mm } = self.gallery.sights[shot.sight].head;
         let TrueSizes { true_diameter_mm, true_width_mm, true_length_mm, true_height_mm } = self.object.true_sizes();
@@ -112,7 +112,7 @@ impl SessionWriter<'_> {
     }
 }
 
-/// Writes a session's files, damaged where its card was.
+/// A writer of a session's files, which damages them where the session is damaged.
 struct Files<'a> {
     folder: &'a StudyFolder,
     damage: Option<Damage>,

@@ -1,4 +1,4 @@
-//! The study as written, read back.
+//! Tests of the study as it is read back.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,7 +13,7 @@ use super::*;
 
 const SMALL: LargeOptions = LargeOptions { seed: 7, sessions: 12, images: 4, size_px: [64, 48], damage_pct: 33.0 };
 
-/// All files of a study, by their path in it.
+/// All files of a study by their path in it.
 type Files = BTreeMap<PathBuf, Vec<u8>>;
 
 fn study(options: &LargeOptions) -> Files {
@@ -54,7 +54,7 @@ fn the_same_seed_gives_the_same_bytes_for_any_number_of_threads_and_another_seed
     };
     let one = with_threads(1, SMALL);
     assert!(one == with_threads(3, SMALL));
-    // The other seed without damage: then the same files are there, and none is damaged in the same way in both.
+    // The study with the other seed has no damage, so that the same files are there and none is damaged in the same way in both.
     let whole = study(&LargeOptions { damage_pct: 0.0, ..SMALL });
     let other = study(&LargeOptions { damage_pct: 0.0, seed: 8, ..SMALL });
     let of_cards = |files: &Files| files.keys().filter(|path| path.starts_with("cards")).cloned().collect::<Vec<_>>();
@@ -79,7 +79,7 @@ fn damage_harms_exactly_the_sessions_that_it_names() {
     let named: BTreeSet<String> = column(&damaged, "damaged.csv", "session").into_iter().collect();
     assert_eq!(named.len(), 4, "33 % of 12 are 3.96");
     assert!(!whole.contains_key(Path::new("damaged.csv")));
-    // Of cards/SESSION/FILE and marks/RATER/SESSION/FILE.
+    // The paths are cards/SESSION/FILE and marks/RATER/SESSION/FILE.
     let session_of = |path: &Path| {
         let parts: Vec<_> = path.iter().map(|part| part.to_str().unwrap().to_owned()).collect();
         match parts[0].as_str() {

@@ -1,4 +1,4 @@
-//! The nine bench sessions: one setup each, with one picture of every object.
+//! The nine bench sessions, each of one setup with one picture of every object.
 
 use model::{Camera, Kind, Quantity, UtcNs, View, ViewError};
 use nalgebra::{Point2, Point3};
@@ -12,20 +12,20 @@ use crate::scene::{Outline, Plate, Scene, Solid};
 use crate::sensors::{HeadPose, Motion};
 use crate::study::LabeledLine;
 
-/// The one who marked the bench pictures. The paper does not say who did.
+/// The rater of the bench pictures. The paper does not name one.
 const RATER: &str = "bench";
 
-/// 2021-03-01 15:00:00 UTC. The paper gives no dates.
+/// Start of the first session, 2021-03-01 15:00:00 UTC. The paper gives no dates.
 const FIRST_START: UtcNs = UtcNs(1_614_610_800_000_000_000);
 
 /// Seconds from the start of one session to that of the next.
 const SESSION_PERIOD_S: f64 = 600.0;
 
-/// How far objects stand from the axis point and each other's places, so that not every mark is symmetric about the axis.
+/// Distances of objects from the axis point and from each other, so that not every mark is symmetric about the axis.
 const STEP_X_MM: f64 = 12.0;
 const STEP_Y_MM: f64 = 7.0;
 
-/// An object as drawn, its marks, and the sizes that they stand for.
+/// An object as it is drawn, with its marks and the sizes that they stand for.
 struct Placed {
     solid: Solid,
     lines: Vec<LabeledLine>,
@@ -55,7 +55,7 @@ fn session(published: &Published, camera: &Camera, setup: &SetupRow, index: u32)
     })
 }
 
-/// The picture of the `at`-th object. `place` names it in errors.
+/// The plan of the picture of the `at`-th object. `place` names it in errors.
 fn shot(
     published: &Published,
     view: &View,
@@ -111,13 +111,13 @@ fn bowl(view: &View, object: &str, at: usize, height_mm: f64, diameter_mm: f64) 
     })
 }
 
-/// Left, middle, right, and again.
+/// X of the `at`-th object: left, middle, right, and again.
 #[expect(clippy::cast_precision_loss, reason = "0, 1 or 2")]
 fn place_x_mm(at: usize) -> f64 {
     ((at % 3) as f64 - 1.0) * STEP_X_MM
 }
 
-/// Near, far, and again.
+/// Y of the `at`-th object from the axis point: near, far, and again.
 #[expect(clippy::cast_precision_loss, reason = "0 or 1")]
 fn place_y_mm(at: usize) -> f64 {
     ((at % 2) as f64 - 0.5) * 2.0 * STEP_Y_MM

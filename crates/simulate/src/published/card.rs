@@ -1,4 +1,4 @@
-//! A session plan -> the files of its card and its marks.
+//! Writes the files of a session, its card and its marks, from its plan.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -9,17 +9,17 @@ use crate::render::Renderer;
 use crate::sensors::Recording;
 use crate::study::{StudyFolder, image_stem, labelme_json};
 
-/// Writes sessions into a study.
+/// A writer of sessions into a study.
 pub(super) struct CardWriter<'a> {
     pub folder: &'a StudyFolder,
     pub seed: u64,
     pub size_px: [u32; 2],
-    /// None: no pictures.
+    /// The renderer of pictures; none where there are to be no pictures.
     pub renderer: Option<Renderer>,
 }
 
 impl CardWriter<'_> {
-    /// session.toml and the sensors' packets, each sensor's in two files.
+    /// Writes session.toml and the packets of the sensors. Those of each sensor are in two files.
     pub(super) fn write_sensors(&self, session: &SessionPlan) -> Result<(), SimulateError> {
         let card = format!("cards/{}", session.name);
         self.folder.write(&format!("{card}/session.toml"), session.toml.as_bytes())?;
@@ -34,14 +34,14 @@ impl CardWriter<'_> {
         Ok(())
     }
 
-    /// Each session and sensor has its own stream of noise, so that one does not depend on another's length.
+    /// The stream of noise of a sensor in a session. Each has its own, so that none depends on the length of another.
     fn random(&self, session: &SessionPlan, sensor: u64) -> ChaCha8Rng {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         random.set_stream(session.start.0.unsigned_abs() ^ sensor);
         random
     }
 
-    /// The picture, if pictures are wanted, and every rater's marks.
+    /// Writes the picture, where pictures are wanted, and the marks of every rater.
     pub(super) fn write_shot(&self, session: &SessionPlan, shot: &ShotPlan) -> Result<(), SimulateError> {
         let stem = image_stem(session.start.plus_seconds(shot.time_s))?;
         let image = format!("cards/{}/IMAGES/{stem}.JPG", session.name);

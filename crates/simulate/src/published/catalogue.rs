@@ -1,4 +1,4 @@
-//! The objects of the bench: their kinds, their colours and what the paper gives as their sizes.
+//! The objects of the bench: their kinds, their colours, and their sizes as the paper gives them.
 
 use model::{Container, Kind, Quantity, Shape};
 use serde::Serialize;
@@ -44,7 +44,7 @@ impl ObjectRow {
     }
 }
 
-/// What an object is, by its published name ('circular plate (small)', 'white box', 'pink bowl').
+/// The container of an object, from its published name ('circular plate (small)', 'white box', 'pink bowl').
 pub(super) fn container_of(object: &str) -> Container {
     let kind = match object {
         name if name.contains("plate") => Kind::Plate,

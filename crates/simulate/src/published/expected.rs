@@ -1,5 +1,5 @@
-//! What a correct program must print for this study: the published predictions, with errors and statistics worked out
-//! anew from them. Not the printed errors, of which several are misprints (see the notes in study.toml).
+//! The tables that a correct program must print for this study: the published predictions, with errors and statistics that are
+//! computed anew from them. They are not the printed errors, several of which are misprints (see the notes in study.toml).
 
 use model::ErrorStats;
 use serde::Serialize;
@@ -8,16 +8,16 @@ use super::tables::{Published, RaterRow, SetupRow, Table};
 use crate::error::SimulateError;
 use crate::study::StudyFolder;
 
-/// Tolerance, in percentage points, of the summary rows of heights: they rest on sizes printed to 0.01 cm, of which that
-/// is 0.3 %.
+/// Tolerance, in percentage points, of the summary rows of heights. They rest on sizes that are printed to 0.01 cm, which is
+/// 0.3 % of them.
 const HEIGHTS_TOLERANCE_PCT: f64 = 0.3;
-/// The same of the overall rows of the other tables.
+/// Tolerance, in percentage points, of the overall rows of the other tables.
 const OVERALL_TOLERANCE_PCT: f64 = 0.05;
-/// Tolerances of a single size: of its error, in percentage points, and of the size itself.
+/// Tolerances of a single row: of its error in percentage points, and of its size in cm.
 const ROW_TOLERANCE_PCT: f64 = 0.15;
 const ROW_TOLERANCE_CM: f64 = 0.02;
 
-/// A row of `expected/table_II.csv` to `table_IV.csv`. An empty tolerance leaves it to the command line.
+/// A row of `expected/table_II.csv` to `table_IV.csv`. Where its tolerance is empty, that of the command line counts.
 #[derive(Debug, Clone, Serialize)]
 struct SetupExpected<'a> {
     row: &'static str,
@@ -68,22 +68,23 @@ pub(super) fn write(folder: &StudyFolder, published: &Published) -> Result<(), S
     folder.write_csv(&format!("expected/table_{}.csv", table.id), &rows)
 }
 
-/// Signed, as the paper counts it.
+/// The error in per cent, signed as in the paper.
 fn error_pct(predicted_cm: f64, original_cm: f64) -> f64 {
     100.0 * (predicted_cm - original_cm) / original_cm
 }
 
-/// Tolerance of a row with sizes up to `largest_cm`, in per cent (of a size) and percentage points (of its error).
+/// The tolerance of a row with sizes up to `largest_cm`, in per cent of a size and in percentage points of its error; none where
+/// the usual one holds.
 fn row_tolerance_pct(largest_cm: f64) -> Option<f64> {
     Some(rounded((100.0 * ROW_TOLERANCE_CM / largest_cm).min(ROW_TOLERANCE_PCT)))
 }
 
-/// To four decimals: far finer than any tolerance, and free of the last bit's noise.
+/// The number, rounded to four decimals, which is far finer than any tolerance, and free of noise in the last bit.
 fn rounded(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }
 
-/// Rows of each object, then its mean and sample SD; at the end those of all rows.
+/// The rows of each object, then its mean and sample SD, and at the end the mean and sample SD of all rows.
 fn setup_rows(table: &Table<SetupRow>, tolerance_pct: Option<f64>) -> Vec<SetupExpected<'_>> {
     let mut expected = Vec::new();
     let errors = |rows: &[&SetupRow]| -> Vec<f64> {
@@ -133,7 +134,7 @@ fn mean_cm(row: &RaterRow) -> f64 {
     row.predicted_cm().iter().sum::<f64>() / 4.0
 }
 
-/// A row for each container, then mean and population SD over the rows.
+/// A row for each container, and then the mean and the population SD over the rows.
 fn rater_rows(table: &Table<RaterRow>, tolerance_pct: Option<f64>) -> Vec<RaterExpected<'_>> {
     let errors_pct: Vec<_> = table.rows.iter().map(|row| error_pct(mean_cm(row), row.implied_truth_cm)).collect();
     let rows = table.rows.iter().zip(&errors_pct).map(|(row, error_pct)| {

@@ -1,8 +1,8 @@
 //! The preset `published-bench`: the paper's bench, rebuilt from its published readings.
 //!
-//! The paper's raw data is not public. This study has cards whose sensors read what the paper printed, and marks worked
-//! back through the paper's equations from what it printed as predictions. It proves arithmetic, selection, statistics
-//! and layout of Tables II-VI. It proves nothing about accuracy.
+//! The raw data of the paper is not public. This study has cards whose sensors read the values that the paper printed, and marks
+//! that are worked back, through the equations of the paper, from the predictions that it printed. The study proves arithmetic,
+//! selection, statistics and layout of Tables II-VI. It proves nothing about accuracy.
 
 mod bench;
 mod card;
@@ -25,17 +25,17 @@ use card::CardWriter;
 use plan::SessionPlan;
 use tables::Published;
 
-/// How the study is made.
+/// The options of the preset `published-bench`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Options {
     /// Seed of all noise. The same seed gives the same study.
     pub seed: u64,
-    /// Whether pictures are drawn (87 of 5 megapixels: about a minute on two cores); without them everything else is written all the same.
+    /// Whether pictures are drawn (87 of 5 megapixels, which take about a minute on two cores). Everything else is written either way.
     pub render: bool,
 }
 
 impl Default for Options {
-    /// The seed of the sample in `data-samples/published-bench`, with pictures.
+    /// The seed of the sample in `data-samples/published-bench`, and pictures.
     fn default() -> Self {
         Self { seed: 1, render: true }
     }
@@ -45,7 +45,7 @@ const CAMERA_FILE: &str = "devices/bench-camera.toml";
 const CAMERA: &str = include_str!("bench-camera.toml");
 
 /// Writes the study into `out`, a folder that is empty or does not exist yet. `progress` is called after each image with
-/// the number of images done and their total.
+/// the number of images that are done and the total number.
 ///
 /// # Errors
 /// [`SimulateError::NotEmpty`] for a folder with something in it, [`SimulateError::Io`] when a file cannot be written.
@@ -81,7 +81,7 @@ pub fn published_bench(
     Ok(summary)
 }
 
-/// The camera of the study: AIM-2's published geometry with a lens coefficient of our own.
+/// The camera of the study, with AIM-2's published geometry and a lens coefficient of our own.
 fn camera() -> Result<Camera, SimulateError> {
     let spec: model::CameraSpec =
         toml::from_str(CAMERA).map_err(|source| SimulateError::CameraFile { name: CAMERA_FILE, source })?;

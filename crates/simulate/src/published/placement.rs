@@ -1,4 +1,4 @@
-//! Where marks must lie, and where containers must stand, for the paper's equations to give the published sizes.
+//! The places of marks and of containers from which the paper's equations give the published sizes.
 
 use model::{Quantity, View, ViewError};
 use nalgebra::{Point2, Point3};
@@ -6,15 +6,15 @@ use nalgebra::{Point2, Point3};
 use crate::scene::Bowl;
 use crate::study::LabeledLine;
 
-/// Free space to leave at the picture's lower border.
+/// Free space at the lower border of the picture.
 const BORDER_PX: f64 = 40.0;
 
-/// The point of the table on the optical axis.
+/// Y of the point of the table on the optical axis, in mm.
 pub(super) fn axis_point_y_mm(view: &View) -> f64 {
     view.pose().camera_height_mm() / view.pose().pitch_rad().tan()
 }
 
-/// A line along X of a given length on the plane Z = `z_mm`, around a centre.
+/// The ends of a line of a given length along X, on the plane Z = `z_mm`, around a centre.
 pub(super) fn span_line(
     view: &View,
     (object, quantity): (&str, Quantity),
@@ -25,8 +25,8 @@ pub(super) fn span_line(
     Ok(LabeledLine { object: object.to_owned(), quantity, ends_px: [end(-1.0)?, end(1.0)?] })
 }
 
-/// The line from a wall's foot on the table to a rim point that Eq. (14) makes `height_mm` high: the rim point is seen on
-/// Z = 0 at H' = H / tan w behind the foot. In X it keeps above the foot.
+/// The ends of the line from a wall's foot on the table to a point of the rim that Eq. (14) makes `height_mm` high: the point is
+/// seen on Z = 0 at H' = H / tan w behind the foot. In X it stays above the foot.
 pub(super) fn height_line(
     view: &View,
     object: &str,
@@ -48,12 +48,12 @@ fn projected_height_mm(view: &View, height_mm: f64) -> f64 {
     height_mm / view.pose().pitch_rad().tan()
 }
 
-/// Stands a bowl so that its drawn far inner wall agrees with its marks. Returns it with the Y of the far wall's foot.
+/// A bowl that stands so that its drawn far inner wall agrees with its marks, and the Y of the foot of its far wall.
 ///
-/// Eq. (14) uses the axis' depression for every ray, so a wall's inset (rim radius - foot radius) and its place decide
-/// each other: with the foot at Y = f, the rim point at H is at (f + H') (c - H) / c, and the inset is what that exceeds
-/// f by. An inset s puts the foot s c/H + H' nearer than the axis point. Wanted: a third of the radius; but of low walls
-/// that would stand out of the picture, so the inset shrinks until the near rim is inside.
+/// Eq. (14) uses the depression of the axis for every ray, so the inset of a wall (rim radius - foot radius) and its place
+/// determine each other: with the foot at Y = f, the point of the rim at H is at (f + H') (c - H) / c, and the inset is the
+/// excess of that over f. An inset s puts the foot s c/H + H' nearer than the axis point. A third of the radius is wanted, but
+/// with a low wall the bowl would then stand out of the picture, so the inset shrinks until the near rim is inside.
 pub(super) fn standing_bowl(
     view: &View,
     center_x_mm: f64,
@@ -70,7 +70,7 @@ pub(super) fn standing_bowl(
         let center_mm = Point2::new(center_x_mm, foot_y_mm + inset_mm - radius_mm);
         let bowl = Bowl { center_mm, foot_radius_mm: radius_mm - inset_mm, rim_radius_mm: radius_mm, height_mm };
         let near_rim = Point3::new(center_mm.x, center_mm.y - radius_mm, height_mm);
-        // A point that the lens does not show at all is outside the picture, too.
+        // A point that the lens does not show at all is outside the picture as well.
         let inside = view.pixel_of(near_rim).is_ok_and(|pixel| pixel.y < lowest_row);
         if inside || inset_mm < 0.01 {
             return Ok((bowl, foot_y_mm));

@@ -1,4 +1,4 @@
-//! What a session consists of, before anything is written.
+//! The plan of a session, before anything is written.
 
 use model::{Camera, Container, Mark, Method, ObjectMarks, Pose, Quantity, UtcNs, View, measure};
 
@@ -7,66 +7,67 @@ use crate::scene::Scene;
 use crate::sensors::{HeadPose, Motion};
 use crate::study::LabeledLine;
 
-/// A session: one card.
+/// The plan of a session, which is one card.
 #[derive(Debug, Clone)]
 pub(super) struct SessionPlan {
     pub name: String,
-    /// Contents of session.toml.
+    /// Content of session.toml.
     pub toml: String,
-    /// When the sensors' records begin.
+    /// Time at which the records of the sensors begin.
     pub start: UtcNs,
     pub motion: Motion,
     pub shots: Vec<ShotPlan>,
 }
 
-/// One picture and what people marked on it.
+/// A picture to be taken, and the marks of people on it.
 #[derive(Debug, Clone)]
 pub(super) struct ShotPlan {
-    /// Since the session's start.
+    /// Time since the start of the session.
     pub time_s: f64,
     pub pose: Pose,
     pub scene: Scene,
     pub marks: Vec<RaterMarks>,
 }
 
-/// One person's marks on a picture.
+/// The marks of one rater on a picture.
 #[derive(Debug, Clone)]
 pub(super) struct RaterMarks {
     pub rater: &'static str,
     pub lines: Vec<LabeledLine>,
 }
 
-/// Seconds from the session's start to its first picture, which leaves the filters room on both sides. Not a multiple of
-/// a sample's period.
+/// Seconds from the start of a session to its first picture, which leave the filters room on both sides. They are not a multiple
+/// of a sample's period.
 const FIRST_IMAGE_S: f64 = 10.25;
 
 /// Seconds between pictures.
 pub(super) const IMAGE_PERIOD_S: f64 = 10.0;
 
-/// When a picture is taken, since the session's start.
+/// The time of the `index`-th picture in seconds since the start of the session.
 #[expect(clippy::cast_precision_loss, reason = "a handful of pictures")]
 pub(super) fn image_time_s(index: usize) -> f64 {
     FIRST_IMAGE_S + index as f64 * IMAGE_PERIOD_S
 }
 
 impl SessionPlan {
-    /// How long the sensors record.
+    /// Seconds for which the sensors record.
     pub(super) fn duration_s(&self) -> f64 {
         image_time_s(self.shots.len())
     }
 }
 
-/// The view of `camera` from a head's pose.
+/// The view of `camera` at the pose of a head. `place` names it in errors.
 pub(super) fn view_from(camera: &Camera, head: HeadPose, place: &str) -> Result<View, SimulateError> {
     let pose = Pose::new(head.pitch_deg.to_radians(), head.roll_deg.to_radians(), head.range_mm)
         .map_err(|source| SimulateError::Pose { place: place.to_owned(), source })?;
     Ok(View::new(*camera, pose))
 }
 
-/// Largest departure of a measured size from the one that its marks were made for.
+/// Largest difference between a measured size and the one that its marks were made for.
 const BACK_SOLVED_WITHIN_MM: f64 = 1e-6;
 
-/// Checks that `lines`, all of one object, lie in the picture, and that measuring them the paper's way gives `sizes_mm`.
+/// Checks that `lines`, all of which belong to one object, lie in the picture, and that the method `paper` measures `sizes_mm`
+/// from them.
 pub(super) fn check_marks(
     view: &View,
     container: &Container,

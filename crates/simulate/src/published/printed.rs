@@ -1,4 +1,4 @@
-//! The tables as printed, for the report to show beside its own.
+//! The tables as they are printed in the paper, which the report shows beside its own.
 
 use serde::Serialize;
 
@@ -18,7 +18,7 @@ struct PrintedRow<'a> {
     error_pct: f64,
 }
 
-/// A row of `printed/table_*_summary.csv`; without an object it is the overall one.
+/// A row of `printed/table_*_summary.csv`. The one without an object is the overall row.
 #[derive(Debug, Clone, Serialize)]
 struct PrintedSummary<'a> {
     object: Option<&'a str>,

@@ -1,4 +1,4 @@
-//! The published numbers, as printed.
+//! The published numbers, as they are printed in the paper.
 
 use model::Quantity;
 use serde::Deserialize;
@@ -32,21 +32,21 @@ pub(super) struct RaterRow {
     ra2_cm: f64,
     ra3_cm: f64,
     ra4_cm: f64,
-    /// The 'ground truth' as printed: in Table VI by mistake the raters' mean.
+    /// The 'ground truth' as it is printed. In Table VI it is by mistake the mean of the raters.
     pub printed_truth_cm: f64,
-    /// The ground truth that the printed error follows from.
+    /// The ground truth from which the printed error follows.
     pub implied_truth_cm: f64,
     pub error_pct: f64,
 }
 
 impl RaterRow {
-    /// The raters' values, in the order of [`RATERS`].
+    /// The values of the raters, in the order of [`RATERS`].
     pub(super) fn predicted_cm(&self) -> [f64; 4] {
         [self.ra1_cm, self.ra2_cm, self.ra3_cm, self.ra4_cm]
     }
 }
 
-/// A printed mean and SD: of an object, or overall.
+/// A printed mean and SD of an object, or overall.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SummaryRow {
@@ -108,7 +108,7 @@ impl Published {
 impl Table<SetupRow> {
     /// The row of `object` at the setup of `like`.
     pub(super) fn at_setup(&self, object: &str, like: &SetupRow) -> Result<&SetupRow, SimulateError> {
-        // Printed whole numbers, so equal means the same setup.
+        // The numbers are printed as whole numbers, so equal ones mean the same setup.
         let same = |a: f64, b: f64| (a - b).abs() < 0.01;
         let found = self.rows.iter().find(|row| {
             row.object == object && same(row.height_cm, like.height_cm) && same(row.pitch_deg, like.pitch_deg)

@@ -1,4 +1,4 @@
-//! The worn sessions of Tables V and VI: one container each, pictures at several pitches, four raters.
+//! The worn sessions of Tables V and VI, each with one container, pictures at several pitches, and four raters.
 
 use model::{Camera, Kind, Quantity, UtcNs, View, ViewError};
 use nalgebra::{Point2, Point3, Vector2};
@@ -12,38 +12,40 @@ use crate::scene::{Bowl, Scene, Solid, Tub};
 use crate::sensors::{HeadPose, Motion};
 use crate::study::LabeledLine;
 
-/// 2021-03-02 18:00:00 UTC. The paper gives no dates.
+/// Start of the first session, 2021-03-02 18:00:00 UTC. The paper gives no dates.
 const FIRST_START: UtcNs = UtcNs(1_614_708_000_000_000_000);
 
 /// Seconds from the start of one session to that of the next.
 const SESSION_PERIOD_S: f64 = 1200.0;
 
-/// Pitch at each picture, per session. The paper says 'without any restrictions on the position/tilt of the head' and
+/// Pitch of each picture, for each session. The paper says 'without any restrictions on the position/tilt of the head' and
 /// gives no readings. Two pictures of each session lie outside 55 +- 7.5 degrees.
 const PITCHES_DEG: [[f64; 5]; 3] =
     [[40.0, 51.0, 55.0, 58.0, 69.0], [72.0, 59.0, 54.0, 52.0, 39.0], [43.0, 50.5, 53.0, 57.5, 66.0]];
 
-/// Height of the camera above the table, per session, before the range is rounded to whole mm.
+/// Height of the camera above the table for each session, before the range is rounded to whole mm.
 const CAMERA_HEIGHTS_MM: [f64; 3] = [430.0, 415.0, 445.0];
 
-/// The target window of the study.
+/// Middle of the target window of the study.
 const TARGET_PITCH_DEG: f64 = 55.0;
+/// Half of its width.
 const PITCH_TOLERANCE_DEG: f64 = 7.5;
 
-/// On pictures outside the target window the marks give sizes this many times as large: a program that selects wrongly
-/// then gets wrong tables.
+/// Factor of the sizes that the marks give on pictures outside the target window. A program that selects wrongly then gets
+/// wrong tables.
 pub(super) const OUTSIDE_WINDOW_FACTOR: f64 = 1.02;
 
-/// Room between two pictures for the head to turn, in s: short, so that a slow low-pass does not see it from a picture.
+/// Seconds between two pictures in which the head can turn. They are few, so that a slow low-pass does not see the turn at the
+/// time of a picture.
 const TURN_S: f64 = 1.6;
 
 /// Distance between the raters' height lines.
 const RATER_STEP_MM: f64 = 6.0;
 
-/// Width of the box. The paper gives its length and height only.
+/// Width of the box. The paper gives only its length and height.
 const BOX_WIDTH_MM: f64 = 165.0;
 
-/// Foot radius of a drawn bowl, as a share of its rim radius.
+/// Radius of the foot of a drawn bowl, as a share of that of its rim.
 const FOOT_SHARE: f64 = 0.62;
 
 /// One session for each container.
@@ -117,7 +119,7 @@ fn shot(
     Ok(ShotPlan { time_s, pose: *view.pose(), scene, marks })
 }
 
-/// A container of its true size, with its middle on the optical axis.
+/// A container of its true size that stands with its middle on the optical axis.
 struct Standing {
     kind: Kind,
     center_mm: Point2<f64>,
@@ -150,8 +152,8 @@ impl Standing {
         }
     }
 
-    /// A rater's marks. The raters differ from each other and from the truth, so only the foot and the middle of the rim
-    /// are where they are drawn; the other ends are where this rater's published sizes put them.
+    /// The marks of a rater. The raters differ from each other and from the truth, so only the foot and the middle of the rim are
+    /// where they are drawn. The other ends are where the published sizes of this rater put them.
     fn marks(
         &self,
         view: &View,
@@ -163,7 +165,7 @@ impl Standing {
         #[expect(clippy::cast_precision_loss, reason = "one of four raters")]
         let foot_x_mm = (rater as f64 - 1.5) * RATER_STEP_MM;
         let foot_mm = Point2::new(self.center_mm.x + foot_x_mm, self.center_mm.y + self.far_foot_mm(foot_x_mm));
-        // The drawn rim's middle, carried along its ray to the plane that this rater takes for the rim's.
+        // This is the middle of the drawn rim, carried along its ray to the plane that this rater takes for the rim's.
         let camera_height_mm = view.pose().camera_height_mm();
         let carried = (camera_height_mm - height_mm) / (camera_height_mm - self.true_height_mm);
         let middle_mm = Point3::new(self.center_mm.x * carried, self.center_mm.y * carried, height_mm);
@@ -173,7 +175,7 @@ impl Standing {
         ])
     }
 
-    /// How far behind the centre the far wall's foot lies.
+    /// The distance in mm of the far wall's foot behind the centre.
     fn far_foot_mm(&self, x_mm: f64) -> f64 {
         match self.kind {
             Kind::Box => 0.5 * BOX_WIDTH_MM,

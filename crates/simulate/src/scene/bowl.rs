@@ -1,19 +1,19 @@
-//! A round bowl: a cone's shell between a foot circle on the table and a rim circle above it.
+//! A round bowl: the shell of a cone between a foot circle on the table and a rim circle above it.
 
 use nalgebra::{Point2, Point3, Vector3};
 
 use super::{Hit, Part, Ray, nearer};
 
-/// A bowl on the table. Its wall has no thickness but for the rim, which is drawn inwards from the rim circle.
+/// A bowl on the table. Its wall has no thickness, except for the rim, which is drawn inwards from the rim circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bowl {
-    /// Where the axis meets the table.
+    /// The point where the axis meets the table.
     pub center_mm: Point2<f64>,
-    /// Radius at the table.
+    /// Radius of the foot at the table.
     pub foot_radius_mm: f64,
-    /// Radius at the rim.
+    /// Radius of the rim.
     pub rim_radius_mm: f64,
-    /// Height of the rim.
+    /// Height of the rim above the table.
     pub height_mm: f64,
 }
 
@@ -21,11 +21,12 @@ pub struct Bowl {
 const RIM_SHARE: f64 = 0.03;
 
 impl Bowl {
-    /// Radius gained per mm of height.
+    /// The increase of the radius per mm of height.
     fn flare(&self) -> f64 {
         (self.rim_radius_mm - self.foot_radius_mm) / self.height_mm
     }
 
+    /// The surface of the bowl that the ray meets first.
     pub(super) fn hit(&self, ray: &Ray) -> Option<Hit> {
         nearer(nearer(self.hit_rim(ray), self.hit_wall(ray)), self.hit_floor(ray))
     }
@@ -80,6 +81,7 @@ impl Bowl {
         }
     }
 
+    /// The distance of a point of the table from the foot, in mm; negative inside.
     pub(super) fn distance_outside(&self, point: Point2<f64>) -> f64 {
         (point - self.center_mm).norm() - self.foot_radius_mm
     }

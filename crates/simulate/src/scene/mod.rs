@@ -1,4 +1,5 @@
-//! A container on a table, and what a ray meets there. World frame of `model`: Z up, the table at Z = 0, in mm.
+//! A container on a table, and the surfaces that a ray meets there. All is in the world frame of `model`: Z up, the table at
+//! Z = 0, in mm.
 
 mod bowl;
 mod plate;
@@ -11,44 +12,45 @@ pub use bowl::Bowl;
 pub use plate::{Outline, Plate};
 pub use tub::Tub;
 
-/// Red, green and blue, 0 to 255, as in the picture.
+/// Red, green and blue from 0 to 255, as in the picture.
 pub type Colour = [f32; 3];
 
-/// A container standing on the table.
+/// A container that stands on the table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Solid {
-    /// Flat: its measured outline lies in the table plane.
+    /// A flat plate: its measured outline lies in the table plane.
     Plate(Plate),
-    /// Round, with a sloped wall.
+    /// A round bowl with a sloped wall.
     Bowl(Bowl),
-    /// Rectangular, with upright walls.
+    /// A rectangular box with upright walls.
     Tub(Tub),
 }
 
-/// What there is to see.
+/// A table with one container on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scene {
     /// The container.
     pub solid: Solid,
-    /// Its colour in full light.
+    /// The container's colour in full light.
     pub colour: Colour,
 }
 
 /// A line of sight: from `origin` along `direction` (of any length).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
-    /// Where it starts.
+    /// The point where it starts, in mm.
     pub origin: Point3<f64>,
-    /// Where it goes.
+    /// Its direction. The length matters only for distances, which are in units of it.
     pub direction: Vector3<f64>,
 }
 
 impl Ray {
+    /// The point at a distance, which is in lengths of the direction.
     pub(crate) fn point_at(&self, distance: f64) -> Point3<f64> {
         self.origin + self.direction * distance
     }
 
-    /// Distance, in lengths of the direction, to the level plane at height `z_mm`.
+    /// The distance, in lengths of the direction, to the level plane at height `z_mm`; none where the ray does not meet it.
     fn to_level(self, z_mm: f64) -> Option<f64> {
         let distance = (z_mm - self.origin.z) / self.direction.z;
         (distance > 0.0 && distance.is_finite()).then_some(distance)
@@ -58,33 +60,33 @@ impl Ray {
 /// The parts of a scene, between which a picture has edges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// Above the horizon, or where the lens shows nothing.
+    /// Nothing: above the horizon, or where the lens shows nothing.
     Nothing,
     /// The table.
     Table,
     /// A plate, or the floor of a container.
     Floor,
-    /// A wall seen from inside.
+    /// A wall, seen from inside.
     InnerWall,
-    /// A wall seen from outside.
+    /// A wall, seen from outside.
     OuterWall,
     /// The upper edge of a wall.
     Rim,
 }
 
-/// A surface met by a ray.
+/// A surface that a ray meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Hit {
     distance: f64,
     part: Part,
-    /// Unit normal on the side that the ray comes from.
+    /// Unit normal, on the side that the ray comes from.
     normal: Vector3<f64>,
-    /// Light lost to nearby surfaces: 1 in the open.
+    /// The share of light that nearby surfaces leave: 1 in the open.
     openness: f64,
 }
 
 impl Scene {
-    /// What `ray` meets first, and its colour.
+    /// The part that `ray` meets first, and its colour.
     #[must_use]
     pub fn seen_along(&self, ray: &Ray) -> (Part, Colour) {
         if let Some(hit) = self.hit(ray) {
@@ -108,7 +110,7 @@ impl Scene {
         }
     }
 
-    /// The share of light that reaches the table at `point`: a soft contact shadow, drawn away from the lamp.
+    /// The share of light that reaches the table at `point`. It is less in a soft contact shadow, drawn away from the lamp.
     #[expect(clippy::cast_possible_truncation, reason = "a colour needs no more than 24 bits")]
     fn light_on_table(&self, point: Point2<f64>) -> f32 {
         let (outside, height) = match &self.solid {
@@ -121,17 +123,17 @@ impl Scene {
     }
 }
 
-/// Apparent thickness of a plate, for its shadow only.
+/// Apparent height of a plate, used for its shadow alone.
 const PLATE_LIFT_MM: f64 = 10.0;
 
-/// Direction to the lamp, not normalised: from the upper left, behind the table.
+/// Direction to the lamp, which is at the upper left behind the table. It is not normalised.
 const TO_LAMP: Vector3<f64> = Vector3::new(-0.45, 0.4, 0.8);
 
 fn shadow_offset(height_mm: f64) -> nalgebra::Vector2<f64> {
     TO_LAMP.xy() * (-0.5 * height_mm / TO_LAMP.z)
 }
 
-/// Lambert's law with a share of ambient light.
+/// The colour of a surface in the light, by Lambert's law with a share of ambient light.
 #[expect(clippy::cast_possible_truncation, reason = "a colour needs no more than 24 bits")]
 fn lit(colour: Colour, hit: &Hit) -> Colour {
     let lambert = hit.normal.dot(&TO_LAMP.normalize()).max(0.0);

@@ -1,10 +1,10 @@
-//! A plate: flat for the paper's model, so drawn flat, with shading that lets its rim look raised.
+//! A plate. It is flat, as in the paper's model, with a shading that makes its rim look raised.
 
 use nalgebra::{Point2, Vector3};
 
 use super::{Hit, Part, Ray};
 
-/// Outline of a plate.
+/// The outline of a plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outline {
     /// A disc.
@@ -25,7 +25,7 @@ pub struct Plate {
 }
 
 impl Plate {
-    /// Distance from the centre as a share of the half width (1 at the edge), and the direction outwards.
+    /// The distance of a point from the centre as a share of the half width (1 at the edge), and the direction outwards.
     fn reach(&self, point: Point2<f64>) -> (f64, Vector3<f64>) {
         let from_center = point - self.center_mm;
         let (reach_mm, outwards) = match self.outline {
@@ -38,19 +38,21 @@ impl Plate {
         (reach_mm / self.half_width_mm, outwards.push(0.0))
     }
 
+    /// The surface of the plate that the ray meets.
     pub(super) fn hit(&self, ray: &Ray) -> Option<Hit> {
         let distance = ray.to_level(0.0)?;
         let (reach, outwards) = self.reach(ray.point_at(distance).xy());
         if reach > 1.0 {
             return None;
         }
-        // Apparent slope along the profile: flat well, a step up at two thirds, a rim that rises a little, a rolled lip.
+        // The apparent slope along the profile: a flat well, a step up at two thirds, a rim that rises a little, and a rolled lip.
         let slope = 0.55 * bump(reach, 0.66, 0.05) + 0.12 * bump(reach, 0.86, 0.16) - 0.5 * bump(reach, 0.99, 0.025);
         let normal = (Vector3::z() - outwards * slope).normalize();
         let openness = 0.94 + 0.06 * (reach * reach).min(1.0) - 0.08 * bump(reach, 0.63, 0.05);
         Some(Hit { distance, part: Part::Floor, normal, openness })
     }
 
+    /// The distance of a point of the table from the plate, in mm; 0 or negative inside.
     pub(super) fn distance_outside(&self, point: Point2<f64>) -> f64 {
         match self.outline {
             Outline::Circle => (point - self.center_mm).norm() - self.half_width_mm,

@@ -1,13 +1,13 @@
-//! The table top: a low-contrast grain like wood. Smooth, so that pictures of it stay small.
+//! The table top: a grain of low contrast, like wood. It is smooth, so that pictures of it stay small.
 
 use nalgebra::Point2;
 
 use super::Colour;
 
-/// Colour of the bare table at a point.
+/// The colour of the bare table at a point.
 #[expect(clippy::cast_possible_truncation, reason = "a colour needs no more than 24 bits")]
 pub(super) fn colour_at(point_mm: Point2<f64>) -> Colour {
-    // Far away a pixel covers more than the grain: fade it out instead of letting it flicker.
+    // Far away a pixel covers more than the grain, which is faded out so that it does not flicker.
     let fade = 1.0 / (1.0 + (point_mm.coords.norm() / 1500.0).powi(4));
     let warp = smooth_noise(point_mm.x / 300.0, point_mm.y / 90.0);
     let broad = smooth_noise(point_mm.x / 420.0 + 7.3, point_mm.y / 60.0 + 1.7);
@@ -16,7 +16,7 @@ pub(super) fn colour_at(point_mm: Point2<f64>) -> Colour {
     [150.0 + tone, 111.0 + 0.85 * tone, 74.0 + 0.6 * tone]
 }
 
-/// Value noise in -1 to 1 with smooth derivatives, one cell per unit.
+/// Value noise from -1 to 1 with smooth derivatives and one cell per unit.
 fn smooth_noise(x: f64, y: f64) -> f64 {
     let (cell_x, cell_y) = (x.floor(), y.floor());
     let (u, v) = (ease(x - cell_x), ease(y - cell_y));
@@ -31,7 +31,7 @@ fn ease(t: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// A fixed pseudo-random value in -1 to 1 for a lattice point.
+/// The pseudo-random value from -1 to 1 of a lattice point, which is always the same.
 #[expect(clippy::cast_possible_truncation, reason = "far cells may share a value")]
 #[expect(clippy::cast_precision_loss, reason = "24 bits of a hash are exact")]
 #[expect(clippy::cast_sign_loss, reason = "bits of a hash")]

@@ -4,14 +4,15 @@ use nalgebra::{Point2, Vector2, Vector3};
 
 use super::{Hit, Part, Ray, nearer};
 
-/// A box on the table, with upright walls along X and Y. They have no thickness but for the rim, drawn inwards.
+/// A box on the table, with upright walls along X and Y. The walls have no thickness, except for the rim, which is drawn
+/// inwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tub {
     /// Centre on the table.
     pub center_mm: Point2<f64>,
     /// Half the extents along X and Y.
     pub half_size_mm: Vector2<f64>,
-    /// Height of the rim.
+    /// Height of the rim above the table.
     pub height_mm: f64,
 }
 
@@ -19,12 +20,13 @@ pub struct Tub {
 const RIM_MM: f64 = 3.0;
 
 impl Tub {
+    /// The surface of the box that the ray meets first.
     pub(super) fn hit(&self, ray: &Ray) -> Option<Hit> {
         let walls = [0, 1].into_iter().flat_map(|axis| [-1.0, 1.0].map(|side| self.hit_wall(ray, axis, side)));
         walls.fold(nearer(self.hit_rim(ray), self.hit_floor(ray)), nearer)
     }
 
-    /// How far a point lies from the nearest wall; positive inside.
+    /// The distance of a point from the nearest wall; positive inside.
     fn depth_inside(&self, point: Point2<f64>) -> f64 {
         let depth = self.half_size_mm - (point - self.center_mm).abs();
         depth.x.min(depth.y)
@@ -47,7 +49,7 @@ impl Tub {
         (depth >= 0.0).then_some(Hit { distance, part: Part::Floor, normal: Vector3::z(), openness })
     }
 
-    /// The wall across `axis` (0: X, 1: Y) on one side of the centre.
+    /// The hit on the wall across `axis` (0 for X, 1 for Y) on one `side` (1 or -1) of the centre.
     fn hit_wall(&self, ray: &Ray, axis: usize, side: f64) -> Option<Hit> {
         let wall = self.center_mm[axis] + side * self.half_size_mm[axis];
         let distance = (wall - ray.origin[axis]) / ray.direction[axis];
@@ -70,6 +72,7 @@ impl Tub {
         })
     }
 
+    /// The distance of a point of the table from the box, in mm; 0 inside.
     pub(super) fn distance_outside(&self, point: Point2<f64>) -> f64 {
         (point - self.center_mm).abs().zip_map(&self.half_size_mm, |d, half| (d - half).max(0.0)).norm()
     }

@@ -1,22 +1,21 @@
-//! A model of the ADXL362: gravity, noise, and counts of 1 mg.
+//! A model of the accelerometer ADXL362: gravity, noise, and counts of 1 mg.
 
 use rand::Rng;
 use rand_distr::{Distribution, Normal};
 
 use super::motion::HeadPose;
 
-/// Counts per g at +-2 g.
+/// Counts per g in the range of +-2 g.
 const COUNTS_PER_G: f64 = 1000.0;
 
-/// SD of the noise before shaping, in counts (mg). Shaping raises it by sqrt 2, to the sensor's 4 mg.
+/// SD of the noise before it is shaped, in counts (mg). Shaping multiplies it by sqrt 2, which gives the sensor's 4 mg.
 const NOISE_COUNTS: f64 = 2.8;
 
-/// The accelerometer's counts for a turning head. Only gravity and noise: the acceleration of the head's own motion is
-/// left out.
+/// An accelerometer on a turning head. It reads gravity and noise; the acceleration of the head's own motion is left out.
 ///
-/// Noise and rounding are *shaped*: what one sample is off by is taken back by the next one, so that the sum over any
-/// window is right to a few counts and its mean keeps the published pitch to about 0.003 degrees, though one count is
-/// 0.06 degrees. A real sensor's noise is not so kind; here the noise must not hide an error of arithmetic.
+/// Noise and rounding are *shaped*: the next sample takes back the error of each sample. So the sum over any window is right
+/// to a few counts, and its mean keeps the published pitch to about 0.003 degrees, although one count is 0.06 degrees. The noise
+/// of a real sensor is not so kind, but here the noise must not hide an error of arithmetic.
 #[derive(Debug, Clone)]
 pub struct Accelerometer<R> {
     random: R,
@@ -26,14 +25,14 @@ pub struct Accelerometer<R> {
 }
 
 impl<R: Rng> Accelerometer<R> {
-    /// `mount_pitch_deg`: how much further down the camera looks than the sensor's forward axis. None if the noise
-    /// model has no such distribution (it always has).
+    /// An accelerometer on a device whose camera looks `mount_pitch_deg` further down than the sensor's forward axis. None where
+    /// the distribution of the noise is not possible, which does not occur.
     pub fn new(random: R, mount_pitch_deg: f64) -> Option<Self> {
         let noise = Normal::new(0.0, NOISE_COUNTS).ok()?;
         Some(Self { random, noise, mount_pitch_deg, owed_counts: [0.0; 3] })
     }
 
-    /// The next sample: x right, y down, z forward in the device frame. At rest upright it reads (0, -1000, 0), the
+    /// The next sample in counts: x right, y down, z forward in the device frame. At rest and upright it is (0, -1000, 0), the
     /// specific force that holds the head up.
     pub fn sample(&mut self, pose: HeadPose) -> [i16; 3] {
         let true_counts = up_in_device(pose, self.mount_pitch_deg).map(|share| COUNTS_PER_G * share);
@@ -46,7 +45,8 @@ impl<R: Rng> Accelerometer<R> {
     }
 }
 
-/// The unit vector 'up' in the device frame: that of the camera, turned up by the mount about the axis x that both share.
+/// The unit vector 'up' in the device frame: the one in the camera frame, turned up by the mount about the axis x, which both
+/// frames share.
 pub(crate) fn up_in_device(pose: HeadPose, mount_pitch_deg: f64) -> [f64; 3] {
     let (sin_pitch, cos_pitch) = pose.pitch_deg.to_radians().sin_cos();
     let (sin_roll, cos_roll) = pose.roll_deg.to_radians().sin_cos();

@@ -1,4 +1,4 @@
-//! The motion of a head -> what an accelerometer and a range sensor store on the card.
+//! The packets that an accelerometer and a range sensor on a moving head store on the card.
 
 mod accelerometer;
 mod motion;
@@ -14,9 +14,9 @@ pub use range::RangeSensor;
 pub use recording::Recording;
 pub(crate) use recording::posix_s;
 
-/// Samples per second of both sensors' records.
+/// Number of samples per second in the records of both sensors.
 pub const SAMPLE_RATE_HZ: f64 = 128.0;
 
-/// How much further down the camera looks than the accelerometer's forward axis (`mount_pitch_deg` of the profile
-/// aim2-packets).
+/// The mount offset: how much further down the camera looks than the accelerometer's forward axis (`mount_pitch_deg` of the
+/// profile aim2-packets).
 pub const MOUNT_PITCH_DEG: f64 = 21.0;

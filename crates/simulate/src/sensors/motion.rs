@@ -1,9 +1,9 @@
 //! A head that rests around each picture and moves in between.
 
-/// Where the camera looks from.
+/// The pose of the camera on a head.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeadPose {
-    /// Depression of the camera's axis below the horizontal.
+    /// Depression of the optical axis below the horizontal.
     pub pitch_deg: f64,
     /// Roll about that axis, positive clockwise as the wearer sees it.
     pub roll_deg: f64,
@@ -11,23 +11,24 @@ pub struct HeadPose {
     pub range_mm: f64,
 }
 
-/// Poses in time order. Between the rests of two poses the head turns smoothly from one to the next.
+/// The motion of a head: poses in the order of time. Between the rests at two poses the head turns smoothly from one to the next.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    /// Middle of each rest, in seconds since the recording's start, and the pose.
+    /// The middle of each rest, in seconds since the start of the recording, and the pose.
     pub rests: Vec<(f64, HeadPose)>,
     /// Half the length of a rest.
     pub half_rest_s: f64,
 }
 
 impl Motion {
-    /// A head (or a test bench) that never moves.
+    /// The motion of a head (or a test bench) that never moves.
     #[must_use]
     pub fn fixed(pose: HeadPose) -> Self {
         Self { rests: vec![(0.0, pose)], half_rest_s: 0.0 }
     }
 
-    /// The pose at a time; before the first and after the last rest the head keeps still. None without any rest.
+    /// The pose at a time in seconds since the start of the recording. Before the first and after the last rest the head keeps
+    /// still. None where there is no rest.
     #[must_use]
     pub fn pose_at(&self, time_s: f64) -> Option<HeadPose> {
         let next = self.rests.partition_point(|(rest_s, _)| *rest_s <= time_s);

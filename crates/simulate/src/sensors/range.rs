@@ -1,32 +1,32 @@
-//! A model of the VL53L0X as AIM-2 logs it.
+//! A model of the range sensor VL53L0X, as AIM-2 logs it.
 
 use rand::Rng;
 
 use super::motion::{HeadPose, Motion};
 
-/// Seconds between new readings: the sensor's own period, of which the log at 128 Hz holds four or five copies.
+/// Seconds between new readings, which is the sensor's own period. The log at 128 Hz holds four or five copies of each reading.
 const READING_PERIOD_S: f64 = 0.033;
 
-/// The code that the sensor gives when nothing answers.
+/// The code that the sensor gives when no target answers.
 const NO_TARGET: i16 = 8190;
 
-/// Share of triples of readings with a [`NO_TARGET`] code among them.
+/// The share of the triples of readings that have a [`NO_TARGET`] code among them.
 const NO_TARGET_SHARE: f64 = 0.04;
 
-/// Largest noise of a reading, in mm.
+/// The largest noise of a reading, in mm.
 const NOISE_MM: f64 = 4.0;
 
-/// Readings of a whole recording, each held until the next one.
+/// The readings of a whole recording. Each of them is held until the next one.
 ///
-/// The noise comes in triples (+n, 0, -n), so that in any window with a few readings the median is exactly the distance:
-/// here the noise must not hide an error of arithmetic.
+/// The noise comes in triples (+n, 0, -n), so that the median of any window with a few readings is exactly the distance. Here
+/// the noise must not hide an error of arithmetic.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RangeSensor {
     readings: Vec<i16>,
 }
 
 impl RangeSensor {
-    /// Readings from the recording's start until `duration_s`.
+    /// The readings from the start of the recording until `duration_s`.
     #[must_use]
     pub fn record(random: &mut impl Rng, motion: &Motion, duration_s: f64) -> Self {
         let mut readings = Vec::new();
@@ -43,7 +43,7 @@ impl RangeSensor {
         Self { readings }
     }
 
-    /// The reading held at a time.
+    /// The reading that is held at a time in seconds since the start of the recording, in mm.
     #[must_use]
     #[expect(
         clippy::cast_possible_truncation,

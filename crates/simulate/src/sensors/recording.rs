@@ -1,4 +1,4 @@
-//! The motion of a head during one session -> the packets of both sensors.
+//! The packets of both sensors during one session.
 
 use model::UtcNs;
 use rand::Rng;
@@ -7,22 +7,22 @@ use super::{
     Accelerometer, MOUNT_PITCH_DEG, Motion, PACKET_PERIOD_S, RangeSensor, encode_packet, packet_sample_times_s,
 };
 
-/// The range sensor starts later than the accelerometer, so that their packets do not line up.
+/// Seconds by which the range sensor starts later than the accelerometer, so that their packets do not line up.
 const RANGE_STARTS_S: f64 = 0.375;
 
-/// What both sensors of a session record.
+/// A recording of both sensors during one session.
 #[derive(Debug, Clone, Copy)]
 pub struct Recording<'a> {
-    /// When the accelerometer's record begins.
+    /// Time at which the accelerometer's record begins.
     pub start: UtcNs,
-    /// How the head moves, in seconds since then.
+    /// Motion of the head, in seconds since the start.
     pub motion: &'a Motion,
-    /// How long both sensors record.
+    /// Time for which both sensors record.
     pub duration_s: f64,
 }
 
 impl Recording<'_> {
-    /// The accelerometer's packets, in the order of time. The optical channel is not modelled: 0.
+    /// The packets of the accelerometer, in the order of time. The optical channel is not modelled, and is 0.
     #[must_use]
     pub fn acceleration(&self, random: impl Rng) -> Vec<Vec<u8>> {
         let Some(mut sensor) = Accelerometer::new(random, MOUNT_PITCH_DEG) else {
@@ -39,7 +39,7 @@ impl Recording<'_> {
         self.packet_starts_s(0.0).map(packet).collect()
     }
 
-    /// The range sensor's packets, in the order of time.
+    /// The packets of the range sensor, in the order of time.
     #[must_use]
     pub fn range(&self, random: &mut impl Rng) -> Vec<Vec<u8>> {
         let starts_s: Vec<f64> = self.packet_starts_s(RANGE_STARTS_S).collect();
@@ -52,7 +52,7 @@ impl Recording<'_> {
         starts_s.into_iter().map(packet).collect()
     }
 
-    /// Starts of the packets that cover the session, in seconds since its own start.
+    /// The starts of the packets that cover the session, in seconds since its start. The first one is at `first_s`.
     fn packet_starts_s(&self, first_s: f64) -> impl Iterator<Item = f64> + use<> {
         let end_s = self.duration_s;
         (0_u32..)
@@ -62,6 +62,7 @@ impl Recording<'_> {
 }
 
 #[expect(clippy::cast_precision_loss, reason = "whole seconds are exact, and the rest is below 1 s")]
+/// A time in seconds since 1970-01-01 UTC.
 pub(crate) fn posix_s(time: UtcNs) -> f64 {
     let (seconds, nanoseconds) = (time.0.div_euclid(1_000_000_000), time.0.rem_euclid(1_000_000_000));
     seconds as f64 + nanoseconds as f64 * 1e-9

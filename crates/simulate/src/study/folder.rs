@@ -7,17 +7,17 @@ use serde::Serialize;
 
 use crate::error::SimulateError;
 
-/// A folder for a new study.
+/// The folder of a new study.
 #[derive(Debug, Clone)]
 pub struct StudyFolder {
     root: PathBuf,
 }
 
 impl StudyFolder {
-    /// Takes a folder that does not exist yet, or is empty.
+    /// The folder `root`, which does not exist yet (and is then made) or is empty.
     ///
     /// # Errors
-    /// [`SimulateError::NotEmpty`], or [`SimulateError::Io`] when it cannot be made or listed.
+    /// [`SimulateError::NotEmpty`], or [`SimulateError::Io`] when the folder cannot be made or listed.
     pub fn create(root: &Path) -> Result<Self, SimulateError> {
         fs::create_dir_all(root).map_err(|source| io_error("create the folder", root, source))?;
         let mut entries = fs::read_dir(root).map_err(|source| io_error("list the folder", root, source))?;
@@ -27,7 +27,7 @@ impl StudyFolder {
         Ok(Self { root: root.to_owned() })
     }
 
-    /// Makes a folder, with those above it. `relative` has forward slashes.
+    /// Makes a folder, and those above it. `relative` has forward slashes.
     ///
     /// # Errors
     /// [`SimulateError::Io`].
@@ -36,7 +36,7 @@ impl StudyFolder {
         fs::create_dir_all(&path).map_err(|source| io_error("create the folder", &path, source))
     }
 
-    /// Writes one file, with the folders above it. `relative` has forward slashes.
+    /// Writes a file, and makes the folders above it. `relative` has forward slashes.
     ///
     /// # Errors
     /// [`SimulateError::Io`].
@@ -62,7 +62,7 @@ fn io_error(action: &'static str, path: &Path, source: std::io::Error) -> Simula
     SimulateError::Io { action, path: path.to_owned(), source }
 }
 
-/// Rows as CSV: a header from their fields' names, lines that end in a line feed.
+/// The rows as CSV, with a header of the names of their fields, and lines that end in a line feed.
 fn csv_bytes<T: Serialize>(rows: &[T]) -> Result<Vec<u8>, csv::Error> {
     let mut bytes = Vec::new();
     {

@@ -1,4 +1,4 @@
-//! Marks as LabelMe writes them.
+//! Marks in the format of LabelMe.
 
 use model::Quantity;
 use nalgebra::Point2;
@@ -6,17 +6,17 @@ use serde::Serialize;
 
 use crate::error::SimulateError;
 
-/// The LabelMe release whose layout is written.
+/// The version of LabelMe whose layout is written.
 const LABELME_VERSION: &str = "5.5.0";
 
-/// A line with the label `OBJECT/QUANTITY`.
+/// A marked line with the label `OBJECT/QUANTITY`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LabeledLine {
     /// The object.
     pub object: String,
-    /// What the line's length is.
+    /// The quantity that the line's length stands for.
     pub quantity: Quantity,
-    /// Its ends.
+    /// Its two ends.
     pub ends_px: [Point2<f64>; 2],
 }
 
@@ -44,8 +44,8 @@ struct Shape {
     flags: Flags,
 }
 
-/// A LabelMe file, as UTF-8 with a line feed at the end. `image_path`: relative to the file's own folder. `size_px`:
-/// width, height. Coordinates are rounded to 1e-9 px, so that they do not depend on the last bit of a sine.
+/// A LabelMe file as UTF-8, with a line feed at the end. `image_path` is relative to the file's own folder, and `size_px` is
+/// width and height. Coordinates are rounded to 1e-9 px, so that they do not depend on the last bit of a sine.
 ///
 /// # Errors
 /// [`SimulateError::Json`].

@@ -1,4 +1,4 @@
-//! The files of a study: its folder, the names of images, marks in LabelMe's format, tables as CSV.
+//! The files of a study: its folder, the names of its images, marks in LabelMe's format, and tables as CSV.
 
 mod folder;
 mod labelme;
@@ -15,7 +15,7 @@ use model::UtcNs;
 
 use crate::error::SimulateError;
 
-/// The stem of an image's file name, from the time when it was taken: `20210301T150010.250Z`.
+/// The stem of an image's file name, which is the time when it was taken, such as `20210301T150010.250Z`.
 ///
 /// # Errors
 /// [`SimulateError::Time`] for a time outside the calendar.

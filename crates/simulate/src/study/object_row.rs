@@ -1,4 +1,4 @@
-//! objects.csv.
+//! The table objects.csv.
 
 use model::{Kind, Shape};
 use serde::Serialize;
@@ -8,18 +8,18 @@ use serde::Serialize;
 pub struct ObjectRow {
     /// Its name.
     pub object: String,
-    /// Plate, bowl or box.
+    /// Whether it is a plate, a bowl or a box.
     pub kind: Kind,
     /// Its outline.
     pub shape: Shape,
     /// Diameter of a round rim.
     pub true_diameter_mm: Option<f64>,
-    /// Side of a square, short side of a rectangle.
+    /// Side of a square, or short side of a rectangle.
     pub true_width_mm: Option<f64>,
     /// Long side of a rectangle.
     pub true_length_mm: Option<f64>,
-    /// Height of the rim above the table, to be measured.
+    /// Height of the rim above the table, where it is to be measured.
     pub true_height_mm: Option<f64>,
-    /// The same, known beforehand.
+    /// Height of the rim above the table, where it is known beforehand.
     pub rim_height_mm: Option<f64>,
 }

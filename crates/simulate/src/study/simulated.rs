@@ -1,24 +1,24 @@
-//! What a preset gives back.
+//! The result of making a study.
 
 use model::results::TruthRow;
 
-/// What was written.
+/// The extent of a study that was written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Summary {
-    /// Sessions.
+    /// Number of sessions.
     pub sessions: usize,
-    /// Images that the marks refer to (and, if drawn, that are on the cards).
+    /// Number of images that the marks refer to. They are on the cards where pictures are drawn.
     pub images: usize,
-    /// Files of marks.
+    /// Number of files of marks.
     pub mark_files: usize,
 }
 
-/// A study that was written, and what is true of it.
+/// A study that was written, and its truth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulated {
-    /// How much it is.
+    /// Its extent.
     pub summary: Summary,
-    /// For `truth.parquet`: sessions in their order, images in the order of time, containers in that of their names; an image
-    /// without a container has one row.
+    /// The rows of `truth.parquet`: sessions in their order, images in the order of time, containers in that of their names. An
+    /// image without a container has one row.
     pub truth: Vec<TruthRow>,
 }

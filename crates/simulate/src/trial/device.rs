@@ -1,4 +1,4 @@
-//! A worn camera with errors of its own, and what it reads.
+//! A worn camera with errors of its own, and its readings.
 
 use model::{Camera, InputSigma, LensModel, Pose, View, lens::Division};
 use nalgebra::{Point2, Point3, Rotation3, Vector2, Vector3};
@@ -7,21 +7,22 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::scene::Seen;
 
-/// A Gaussian number.
+/// A Gaussian number with mean 0 and the SD `sigma`.
 pub(super) fn draw(random: &mut ChaCha8Rng, sigma: f64) -> f64 {
     sigma * Distribution::<f64>::sample(&StandardNormal, random)
 }
 
-/// AIM-2's camera angle on the device.
+/// Mount offset of AIM-2.
 const MOUNT_RAD: f64 = 21.0 * std::f64::consts::PI / 180.0;
 
-/// AIM-2's picture and focal length, behind a lens of middling distortion. None if these were no camera (they are).
+/// A camera with AIM-2's picture size and focal length and a lens of middling distortion. None where these do not make a camera,
+/// which does not occur.
 pub(super) fn nominal_camera() -> Option<Camera> {
     let lens = LensModel::Division(Division { lambda: -0.12 });
     Camera::new([2592, 1944], [1695.0, 1702.8], [1296.0, 972.0], 0.0, lens).ok()
 }
 
-/// One device: what is wrong with it for a whole session.
+/// A device with the errors that it has for a whole session.
 pub(super) struct Device {
     nominal: Camera,
     actual: Camera,
@@ -35,8 +36,8 @@ pub(super) struct Device {
 }
 
 impl Device {
-    /// Errors drawn with the standard uncertainties `sigma`. Each axis of the accelerometer has an offset of its own, so pitch and
-    /// tilt share one uncertainty.
+    /// A device with errors that are drawn with the standard uncertainties `sigma`. Each axis of the accelerometer has an offset of
+    /// its own, so pitch and tilt share one uncertainty.
     pub(super) fn draw(random: &mut ChaCha8Rng, sigma: &InputSigma) -> Option<Self> {
         let nominal = nominal_camera()?;
         let scale = 1.0 + draw(random, sigma.focal_relative);
@@ -54,7 +55,7 @@ impl Device {
         })
     }
 
-    /// Pixel of a point as this device shows it. None outside the picture.
+    /// The pixel at which this device shows a point; none where the point is outside the picture.
     pub(super) fn pixel_of(&self, pose: Pose, in_world_mm: Point3<f64>) -> Option<Point2<f64>> {
         let pixel = View::new(self.actual, pose).pixel_of(in_world_mm).ok()?;
         let [width, height] = self.actual.size_px().map(f64::from);
@@ -64,7 +65,7 @@ impl Device {
         ((0.0..=width).contains(&shown.x) && (0.0..=height).contains(&shown.y)).then_some(shown)
     }
 
-    /// The view that the readings of accelerometer and range sensor give.
+    /// The view that the readings of accelerometer and range sensor give; none where they give no pose.
     pub(super) fn read(&self, random: &mut ChaCha8Rng, pose: Pose) -> Option<View> {
         let about_x = |angle_rad: f64| Rotation3::from_axis_angle(&Vector3::x_axis(), angle_rad);
         let down_in_device = about_x(-self.mount_rad) * pose.down_in_camera();
@@ -76,7 +77,7 @@ impl Device {
         Some(View::new(self.nominal, Pose::new(pitch_rad, roll_rad, range_mm).ok()?))
     }
 
-    /// What a rater marks: points off by the marks' uncertainty. None where the picture does not show all of them.
+    /// The pixels that a rater marks, each off by the uncertainty of marks; none where the picture does not show all of the points.
     pub(super) fn marked(&self, random: &mut ChaCha8Rng, pose: Pose, seen: &Seen) -> Option<Vec<Point2<f64>>> {
         seen.points_mm
             .iter()

@@ -1,4 +1,4 @@
-//! What the methods make of a session.
+//! Measures the images of a session by all methods.
 
 use std::collections::BTreeMap;
 
@@ -14,8 +14,8 @@ const ON_ONE_IMAGE: [Method; 3] = [Method::Paper, Method::Ray, Method::Coaxial];
 
 type ByMethod = BTreeMap<(Quantity, Method), Vec<(usize, Estimate)>>;
 
-/// Sizes of a session: of each image by each method and the best, then fused.
-pub(super) fn measured(thing: &Thing, images: &[Image], sigma: &InputSigma) -> Vec<Trial> {
+/// The sizes of a session: of each image by each method and by the best one, and then fused.
+pub(super) fn measure(thing: &Thing, images: &[Image], sigma: &InputSigma) -> Vec<Trial> {
     let mut trials = Vec::new();
     let mut by_method = ByMethod::new();
     for (number, image) in images.iter().enumerate() {
@@ -58,7 +58,8 @@ fn blank(thing: &Thing, quantity: Quantity, method: Method, level: Level) -> Tri
     }
 }
 
-/// The sizes of a session, and of each quantity the surest of those that claim to apply, or of all if none does.
+/// The sizes of a session and, for each quantity, the surest one as the best: of those whose method claims to apply, or of all
+/// where none does.
 fn with_best(mut trials: Vec<Trial>) -> Vec<Trial> {
     let mut best: BTreeMap<Quantity, Trial> = BTreeMap::new();
     for trial in &trials {
@@ -97,7 +98,7 @@ fn fused(
     })
 }
 
-/// Height and slope from all images together, where they determine them, and the mouth on that plane.
+/// The height from all images together, where they determine it, and the mouth on the plane at that height.
 fn joint(thing: &Thing, images: &[Image], sigma: &InputSigma) -> Vec<Trial> {
     if !matches!(thing.subject, Subject::UprightBowl | Subject::SlopedBowl | Subject::CurvedBowl) {
         return Vec::new();

@@ -1,9 +1,9 @@
-//! A bench without pictures: sizes of containers of known size, measured through sensors, cameras and raters that err.
+//! A bench without pictures: containers of known size, measured through sensors, cameras and raters that err.
 //!
-//! Each session has a device with errors of its own, an object, and a few images of it. What is projected is exact geometry;
-//! what is read has the errors that `[uncertainty]` states. So this tests the mathematics of sizes and their uncertainties:
-//! whether intervals cover, which method is better, and whether the best one is chosen. It says nothing about whether the
-//! stated uncertainties are those of a real device.
+//! Each session has a device with errors of its own, an object, and a few images of it. The projection is exact geometry, and
+//! the readings have the errors that `[uncertainty]` states. So this tests the mathematics of sizes and their uncertainties:
+//! whether intervals hold the truth, which method is better, and whether the best one is chosen. It says nothing about whether
+//! the stated uncertainties are those of a real device.
 
 mod device;
 mod measured;
@@ -17,21 +17,21 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use device::Device;
-use measured::measured;
+use measured::measure;
 pub use scene::Subject;
 use scene::Thing;
 pub use score::{Level, Line, Score, score};
 
-/// What to try.
+/// The settings of a trial.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// Seed of all randomness.
     pub seed: u64,
-    /// Sessions per subject; each has an object and a device of its own.
+    /// Number of sessions per subject. Each has an object and a device of its own.
     pub sessions: u32,
-    /// Images per session.
+    /// Number of images per session.
     pub images: u32,
-    /// Errors of devices, signals and marks, which the measurement is told of.
+    /// Standard uncertainties of devices, signals and marks. Errors are drawn with them, and the measurement knows them.
     pub sigma: InputSigma,
 }
 
@@ -41,20 +41,20 @@ impl Default for Options {
     }
 }
 
-/// One size with its truth.
+/// A measured size with its truth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trial {
-    /// What was measured.
+    /// The container that was measured.
     pub subject: Subject,
-    /// Its size.
+    /// The quantity that was measured.
     pub quantity: Quantity,
-    /// How.
+    /// The method.
     pub method: Method,
-    /// From one image or all of the session.
+    /// Whether the size comes from one image or from all of the session.
     pub level: Level,
-    /// The truth.
+    /// The true size.
     pub true_mm: f64,
-    /// What came out.
+    /// The measured size.
     pub predicted_mm: f64,
     /// Its stated standard uncertainty.
     pub sigma_mm: f64,
@@ -62,7 +62,7 @@ pub struct Trial {
     pub claims: bool,
 }
 
-/// Runs the trial; the same options give the same sizes.
+/// The sizes of a trial. The same options give the same sizes.
 #[must_use]
 pub fn run(options: &Options) -> Vec<Trial> {
     let sessions: Vec<(Subject, u32)> =
@@ -76,13 +76,13 @@ struct Image {
     marks: ObjectMarks,
 }
 
-/// Half the field of setups that the paper's bench and wearers span.
+/// The range of pitch in which images are taken: half of the range that the paper's bench and wearers span.
 const PITCH_DEG: std::ops::Range<f64> = 40.0..70.0;
 const ROLL_DEG: std::ops::Range<f64> = -10.0..10.0;
 const CAMERA_HEIGHT_MM: std::ops::Range<f64> = 250.0..500.0;
-/// The container stands this near to where the camera looks, in mm.
+/// How far the container stands from the point where the camera looks, in mm along X and Y.
 const OFF_AXIS_MM: std::ops::Range<f64> = -30.0..30.0;
-/// A scene that does not fit into the picture is drawn anew, so often at most.
+/// How often a scene that does not fit into the picture is drawn anew at most.
 const ATTEMPTS: usize = 200;
 
 fn session(options: &Options, subject: Subject, number: usize) -> Vec<Trial> {
@@ -96,7 +96,7 @@ fn session(options: &Options, subject: Subject, number: usize) -> Vec<Trial> {
             .filter_map(|_| (0..ATTEMPTS).find_map(|_| image(&mut random, &device, &thing, camera_height_mm)))
             .collect();
         if images.len() == options.images as usize {
-            return measured(&thing, &images, &options.sigma);
+            return measure(&thing, &images, &options.sigma);
         }
     }
     Vec::new()

@@ -1,4 +1,4 @@
-//! Containers, and what of them is marked.
+//! Containers, and the points of them that a rater marks.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use nalgebra::{Point2, Point3, Vector2};
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 
-/// What stands on the table.
+/// A sort of container on the table, with the marks that it gets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Subject {
     /// A round plate: points along its rim, and a line across.
@@ -20,16 +20,16 @@ pub enum Subject {
     UprightBowl,
     /// A round bowl with a straight, sloped wall: a height line on its far side, rim and base.
     SlopedBowl,
-    /// The same with a curved wall.
+    /// A round bowl with a curved wall, marked as one with a sloped wall.
     CurvedBowl,
 }
 
 impl Subject {
-    /// All of them.
+    /// All sorts.
     pub const ALL: [Self; 6] =
         [Self::RoundPlate, Self::SquarePlate, Self::Box, Self::UprightBowl, Self::SlopedBowl, Self::CurvedBowl];
 
-    /// For tables.
+    /// The name of the sort in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -47,19 +47,19 @@ impl Subject {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Thing {
     pub subject: Subject,
-    /// Radius of a round rim, half of a square's side or of a rectangle's short one.
+    /// Radius of a round rim, half of a square's side, or half of a rectangle's short side.
     pub half_mm: f64,
     /// Half of a rectangle's long side.
     pub half_long_mm: f64,
     pub height_mm: f64,
     pub base_radius_mm: f64,
-    /// Radius grows with this power of the height.
+    /// Power of the height with which the radius grows.
     pub curve: f64,
-    /// How it is turned on the table.
+    /// Its turn on the table, in radians.
     pub turn_rad: f64,
 }
 
-/// Points that are marked, and how they make up marks.
+/// The points that are marked, and their grouping into marks.
 pub(super) struct Seen {
     pub points_mm: Vec<Point3<f64>>,
     groups: Vec<(Group, usize)>,
@@ -72,7 +72,7 @@ enum Group {
 }
 
 impl Thing {
-    /// A container of everyday size, below a camera at this height.
+    /// A random container of everyday size, for a camera at this height.
     pub(super) fn draw(random: &mut ChaCha8Rng, subject: Subject, camera_height_mm: f64) -> Self {
         let tallest_mm = (0.3 * camera_height_mm).min(110.0);
         let half_mm = random.random_range(35.0..75.0);
@@ -92,7 +92,7 @@ impl Thing {
         }
     }
 
-    /// What is known of it beforehand: an upright wall is; a sloped one is found out.
+    /// The knowledge about the container that the measurement starts from. It includes an upright wall, but not a sloped one.
     pub(super) fn container(&self) -> Container {
         let (kind, shape, wall) = match self.subject {
             Subject::RoundPlate => (Kind::Plate, Shape::Circle, None),
@@ -116,7 +116,7 @@ impl Thing {
         self.base_radius_mm + (self.half_mm - self.base_radius_mm) * (z_mm / self.height_mm).powf(self.curve)
     }
 
-    /// What a rater marks of it, standing at `center_mm`. None where too little of the base is to be seen.
+    /// The points that a rater marks when the container stands at `center_mm`; none where too little of the base can be seen.
     pub(super) fn seen(&self, pose: Pose, center_mm: Point2<f64>) -> Option<Seen> {
         let mut seen = Seen { points_mm: Vec::new(), groups: Vec::new() };
         match self.subject {
@@ -133,7 +133,7 @@ impl Thing {
                 seen.outline(Feature::Rim, corners.to_vec());
             }
             Subject::UprightBowl | Subject::SlopedBowl | Subject::CurvedBowl => {
-                // The near wall of an upright bowl shows its foot outside, the far wall of an open one inside.
+                // The near wall of an upright bowl shows its foot from outside, and the far wall of an open bowl from inside.
                 let away = center_mm.coords.normalize() * if self.subject == Subject::UprightBowl { -1.0 } else { 1.0 };
                 let foot = center_mm + away * self.base_radius_mm;
                 seen.line(Quantity::Height, [(foot, 0.0), (center_mm + away * self.half_mm, self.height_mm)]);
@@ -178,11 +178,11 @@ impl Thing {
     }
 }
 
-/// Points that a rater sets around a circle.
+/// Number of points that a rater sets around a circle.
 const AROUND: u32 = 16;
-/// Fewer points of the base say little of its centre, and nobody would outline it.
+/// Least number of points of a base that is outlined. Fewer say little about its centre.
 const FEWEST_OF_BASE: usize = 7;
-/// Where the way of light past a curved wall is looked at.
+/// Number of heights at which the way of light past a curved wall is checked.
 const STEPS_UP: u32 = 12;
 
 impl Seen {
@@ -196,7 +196,7 @@ impl Seen {
         self.points_mm.extend(points_mm);
     }
 
-    /// The marks, once their points have pixels.
+    /// The marks, from the pixels of their points.
     pub(super) fn marks(&self, pixels: &[Point2<f64>]) -> ObjectMarks {
         let mut rest = pixels;
         let mut marks = Vec::new();

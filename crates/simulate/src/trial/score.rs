@@ -1,4 +1,4 @@
-//! How well sizes and their uncertainties do.
+//! Scores of a trial: how well sizes and their uncertainties agree with the truth.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -7,7 +7,7 @@ use model::{ErrorStats, Method, Quantity};
 
 use super::{Subject, Trial};
 
-/// What a size was measured from.
+/// The images that a size was measured from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// One image.
@@ -16,46 +16,46 @@ pub enum Level {
     Session,
 }
 
-/// Sizes of one sort.
+/// The score of the sizes of one sort.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
-    /// What was measured; none: all subjects.
+    /// The subject; none for all subjects together.
     pub subject: Option<Subject>,
-    /// Which size.
+    /// The quantity.
     pub quantity: Quantity,
-    /// How.
+    /// The method.
     pub method: Method,
-    /// From what.
+    /// The level.
     pub level: Level,
-    /// How many.
+    /// Number of sizes.
     pub n: usize,
-    /// For how many of them the method claims to apply.
+    /// Number of sizes for which the method claims to apply.
     pub claimed: usize,
-    /// Mean error of all, in per cent of the truth.
+    /// Mean error of all sizes, in per cent of the truth.
     pub bias_pct: f64,
-    /// Root mean square error of all, in per cent of the truth.
+    /// Root mean square error of all sizes, in per cent of the truth.
     pub rmse_pct: f64,
-    /// Root mean square error where the method claims to apply.
+    /// Root mean square error of the sizes for which the method claims to apply, in per cent of the truth.
     pub claimed_rmse_pct: f64,
-    /// Share of the claimed whose 68.3 % interval holds the truth.
+    /// Share, from 0 to 1, of the claimed sizes whose 68.3 % interval holds the truth.
     pub within_1: f64,
-    /// Share of the claimed whose 95 % interval holds the truth.
+    /// Share, from 0 to 1, of the claimed sizes whose 95 % interval holds the truth.
     pub within_2: f64,
 }
 
-/// All lines, by subject and for all subjects.
+/// The scores of a trial, by subject and for all subjects together.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Score {
-    /// In the order of level, quantity, subject and method.
+    /// The lines, in the order of level, quantity, subject and method.
     pub lines: Vec<Line>,
 }
 
 type Key = (Level, Quantity, Option<Subject>, Method);
 
-/// 95 % of a Gaussian lie within so many SDs.
+/// Number of SDs within which 95 % of a Gaussian lie.
 const K_95: f64 = 1.959_963_98;
 
-/// Scores a trial.
+/// The score of a trial's sizes.
 #[must_use]
 pub fn score(trials: &[Trial]) -> Score {
     let mut groups: BTreeMap<Key, Vec<&Trial>> = BTreeMap::new();
@@ -93,7 +93,7 @@ fn line((level, quantity, subject, method): Key, group: &[&Trial]) -> Option<Lin
 }
 
 impl Score {
-    /// The line of one sort.
+    /// The line of one sort of sizes; none where the trial has no such sizes.
     #[must_use]
     pub fn line(&self, level: Level, quantity: Quantity, subject: Option<Subject>, method: Method) -> Option<&Line> {
         let same =
@@ -101,7 +101,7 @@ impl Score {
         self.lines.iter().find(same)
     }
 
-    /// As a Markdown table.
+    /// The score as a Markdown table.
     #[must_use]
     pub fn markdown(&self) -> String {
         let mut text = "| from | size | of | method | n | claimed | bias % | RMSE % | RMSE % claimed | 68 % cover | 95 % cover |\n\

@@ -1,4 +1,4 @@
-//! Bodies in the world, and where rays meet them.
+//! Bodies in the world, and the points where rays meet them.
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
@@ -7,30 +7,30 @@ use super::texture::Texture;
 use super::turned::Turned;
 use crate::scene::Ray;
 
-/// A thing on or above the table.
+/// A body on or above the table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
-    /// Its form and place.
+    /// Its form and its place.
     pub form: Form,
     /// Its surface.
     pub material: Material,
 }
 
-/// Forms. Lengths in mm, in the world frame.
+/// The form of a body. Lengths are in mm, in the world frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Form {
-    /// Turned about an upright axis.
+    /// A profile that is turned about an upright axis.
     Turned(Turned),
-    /// Within six planes.
+    /// All points within six planes.
     Convex(Convex),
     /// All points within `radius` of a line.
     Capsule {
         /// The line's ends.
         ends: [Point3<f64>; 2],
-        /// How thick it is: half.
+        /// Half of its thickness.
         radius: f64,
     },
-    /// A box turned about an upright axis.
+    /// A box that is turned about an upright axis.
     Cuboid {
         /// Its middle.
         center: Point3<f64>,
@@ -39,7 +39,7 @@ pub enum Form {
         /// Turn about Z, radians, from X to Y.
         turn_rad: f64,
     },
-    /// An ellipsoid turned about an upright axis.
+    /// An ellipsoid that is turned about an upright axis.
     Ellipsoid {
         /// Its middle.
         center: Point3<f64>,
@@ -50,30 +50,30 @@ pub enum Form {
     },
 }
 
-/// A surface.
+/// The surface of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Its colours.
     pub texture: Texture,
-    /// Share of the light that it mirrors when looked at squarely: 0.04 for glaze and varnish, 0.6 for steel, 0 for cloth.
+    /// Share of the light that it mirrors when it is looked at squarely: 0.04 for glaze and varnish, 0.6 for steel, 0 for cloth.
     pub gloss: f64,
-    /// Share of the light that goes straight through: glass.
+    /// Share of the light that goes straight through, as through glass.
     pub clear: f64,
     /// Whether it gives light itself.
     pub glows: bool,
 }
 
-/// Where a ray meets a surface.
+/// A point where a ray meets a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Touch {
-    /// In lengths of the ray's direction.
+    /// Distance from the origin of the ray, in lengths of its direction.
     pub distance: f64,
-    /// Unit normal, on either side.
+    /// Unit normal, on either side of the surface.
     pub normal: Vector3<f64>,
 }
 
 impl Material {
-    /// A surface without gloss.
+    /// A matt surface, without gloss.
     #[must_use]
     pub fn matt(texture: Texture) -> Self {
         Self { texture, gloss: 0.0, clear: 0.0, glows: false }
@@ -87,7 +87,8 @@ impl Material {
 }
 
 impl Body {
-    /// The nearest point of it along the ray, further than `least`.
+    /// The nearest point of the body along the ray that is further than `least`, in lengths of the ray's direction; none where the
+    /// ray meets no such point.
     pub(super) fn touch(&self, ray: &Ray, least: f64) -> Option<Touch> {
         let (center, reach) = self.ball();
         if !passes(ray, center, reach) {
@@ -102,7 +103,7 @@ impl Body {
         }
     }
 
-    /// Centre and radius of a ball around it.
+    /// Centre and radius of a ball around the body.
     pub(super) fn ball(&self) -> (Point3<f64>, f64) {
         match &self.form {
             Form::Turned(turned) => turned.ball(),
@@ -113,7 +114,7 @@ impl Body {
         }
     }
 
-    /// A point of the world in the frame of its pattern.
+    /// A point of the world in the frame of the body's pattern.
     pub(super) fn own(&self, point: Point3<f64>) -> Point3<f64> {
         match &self.form {
             Form::Turned(turned) => point - turned.axis_mm().coords.push(0.0),
@@ -142,7 +143,7 @@ fn nearest(distances: [f64; 2], least: f64) -> Option<f64> {
     distances.into_iter().find(|distance| *distance > least)
 }
 
-/// After Quilez: the cylinder about the line, then the balls at its ends.
+/// The nearest point of a capsule (after Quilez): first of the cylinder about the line, and then of the balls at its ends.
 fn capsule(ray: &Ray, [a, b]: [Point3<f64>; 2], radius: f64, least: f64) -> Option<Touch> {
     let axis = (b - a).try_normalize(1e-9).unwrap_or_else(Vector3::z);
     let length = (b - a).norm();
@@ -203,7 +204,7 @@ fn ellipsoid(ray: &Ray, center: Point3<f64>, half: Vector3<f64>, turn_rad: f64, 
     Some(Touch { distance, normal })
 }
 
-/// Both roots of a t^2 + 2 b t + c, the smaller one first.
+/// Both roots of a t^2 + 2 b t + c with b = `half_b`, the smaller one first.
 fn roots(a: f64, half_b: f64, c: f64) -> [Option<f64>; 2] {
     let under = half_b * half_b - a * c;
     if under < 0.0 || a < 1e-12 {

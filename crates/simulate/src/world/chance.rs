@@ -1,6 +1,6 @@
-//! Chance that depends on a place alone, so that every thread draws the same.
+//! Random numbers that depend on a seed or a place alone, so that every thread draws the same ones.
 
-/// Mixes the bits of a number (`SplitMix64`, Steele et al. 2014).
+/// A number with the bits of `seed` mixed (`SplitMix64`, Steele et al. 2014).
 pub(super) fn mixed(seed: u64) -> u64 {
     let z = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
     let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -8,7 +8,7 @@ pub(super) fn mixed(seed: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// A number from 0 to 1.
+/// A uniform number from 0 to 1.
 #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
 pub(super) fn share(seed: u64) -> f64 {
     (mixed(seed) >> 11) as f64 / (1_u64 << 53) as f64
@@ -20,7 +20,7 @@ pub(super) fn normal(seed: u64) -> f64 {
     radius * (std::f64::consts::TAU * share(seed ^ 0x5DEE_CE66_D1CE_4E5B)).cos()
 }
 
-/// Smooth noise from 0 to 1 with a period of about one unit (value noise).
+/// Smooth noise (value noise) from 0 to 1 with a period of about one unit.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "places on a table; far ones saturate")]
 pub(super) fn noise(at: [f64; 2], seed: u64) -> f64 {
     let [x, y] = at.map(f64::floor);

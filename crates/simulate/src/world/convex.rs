@@ -1,25 +1,25 @@
-//! Six-sided convex forms: prisms with slanted ends, of which the flange of a rectangular plate is made.
+//! Convex forms with six sides: prisms with slanted ends, which make up the flange of a rectangular plate.
 
 use nalgebra::{Point3, Vector3};
 
 use super::body::{Touch, turn};
 use crate::scene::Ray;
 
-/// All points on the inner side of six planes, turned about an upright axis.
+/// A form of all points on the inner side of six planes, turned about an upright axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Convex {
     /// Origin of its own frame.
     pub center: Point3<f64>,
     /// Turn about Z, radians, from X to Y.
     pub turn_rad: f64,
-    /// Unit normal, outwards, in its own frame, and distance from the origin.
+    /// The outward unit normal of each plane in the form's own frame, and its distance from the origin.
     pub sides: [(Vector3<f64>, f64); 6],
-    /// Radius of a ball about `center` that holds it.
+    /// Radius of a ball about `center` that holds the form.
     pub reach_mm: f64,
 }
 
 impl Convex {
-    /// The nearest point of it along the ray, further than `least`.
+    /// The nearest point of the form along the ray that is further than `least`, in lengths of the ray's direction.
     pub(super) fn touch(&self, ray: &Ray, least: f64) -> Option<Touch> {
         let back = turn(-self.turn_rad);
         let (o, d) = (back * (ray.origin - self.center), back * ray.direction);

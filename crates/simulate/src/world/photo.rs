@@ -1,4 +1,4 @@
-//! A photograph of a world: rays through a lens, blur, vignetting, exposure, noise.
+//! Photographs of a world: rays through a lens, blur, vignetting, exposure and noise.
 
 use model::Camera;
 use nalgebra::{Matrix3, Point2, Point3, Vector2, Vector3};
@@ -10,39 +10,40 @@ use super::{Rgb, World};
 use crate::render::Picture;
 use crate::scene::Ray;
 
-/// Sub-pixels along each side of a pixel, where it shows one lit or unlit surface, and where not.
+/// Number of sub-pixels along each side of a pixel that shows one surface, which is all lit or all unlit.
 const PLAIN: u32 = 2;
+/// Number of sub-pixels along each side of any other pixel.
 const EDGE: u32 = 5;
 
-/// Where the camera is and how it is turned.
+/// Place and orientation of the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Station {
     /// Its place.
     pub origin_mm: Point3<f64>,
-    /// Takes directions in the camera frame to the world.
+    /// The rotation that takes directions in the camera frame to the world frame.
     pub world_from_camera: Matrix3<f64>,
 }
 
-/// What the camera does to the light.
+/// The properties of the camera that turn light into levels of the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exposure {
-    /// Level of a white surface in full light, of the highest level (1); before the tone curve.
+    /// Level of a white surface in full light as a share of the highest level, before the tone curve.
     pub gain: f64,
-    /// Gains of red, green and blue: white balance.
+    /// Gains of red, green and blue (the white balance).
     pub balance: Rgb,
-    /// Light lost in the corners, as a share.
+    /// Share of the light that is lost in the corners.
     pub vignetting: f64,
-    /// How far the picture moves while it is taken, in pixels.
+    /// Motion of the picture while it is taken, in pixels.
     pub motion_px: Vector2<f64>,
     /// SD of the lens's blur, in pixels.
     pub blur_px: f64,
     /// SD of the noise of a black pixel, as a share of the highest level.
     pub read_noise: f64,
-    /// Electrons that fill a pixel: its shot noise is the square root of what it holds.
+    /// Number of electrons that fill a pixel. Its shot noise is the square root of the number that it holds.
     pub full_well: f64,
 }
 
-/// Takes the picture. The same seed gives the same bytes, for any number of threads.
+/// The picture of a world. The same seed gives the same bytes, for any number of threads.
 #[must_use]
 pub fn photograph(world: &World, camera: &Camera, station: &Station, exposure: &Exposure, seed: u64) -> Picture {
     let [width_px, height_px] = camera.size_px();
@@ -74,7 +75,7 @@ struct Shot<'a> {
 }
 
 impl Shot<'_> {
-    /// Mean light of a pixel.
+    /// The mean light of a pixel.
     fn pixel(&self, x: u32, y: u32) -> Rgb {
         let at = Point2::new(f64::from(x), f64::from(y));
         let Ok((ray, by_pixel)) = self.camera.ray_and_derivative(at) else {
@@ -85,7 +86,7 @@ impl Shot<'_> {
             let lot = own.wrapping_add(u64::from(side << 8 | sub) << 20);
             let jitter = |place: u32, salt: u64| (f64::from(place) + share(lot ^ salt)) / f64::from(side);
             let offset = Vector2::new(jitter(sub % side, 1), jitter(sub / side, 2)).add_scalar(-0.5);
-            // Parts of the lamp in another order than parts of the pixel, so that the two do not go together.
+            // The parts of the lamp come in another order than the parts of the pixel, so that the two are not correlated.
             let part = (sub * 7 + 3) % (side * side);
             let direction = self.station.world_from_camera * (ray + by_pixel * offset);
             let ray = Ray { origin: self.station.origin_mm, direction };
@@ -100,7 +101,7 @@ impl Shot<'_> {
 fn mean(sights: impl ExactSizeIterator<Item = Sight>) -> Rgb {
     #[expect(clippy::cast_precision_loss, reason = "a handful of sub-pixels")]
     let number = sights.len() as f64;
-    // A highlight fills its own sub-pixel only: beyond twice the highest level, no sensor counts.
+    // A highlight fills its own sub-pixel only, since no sensor counts beyond twice the highest level.
     let sum = sights.fold([0.0; 3], |sum: Rgb, s| std::array::from_fn(|i| sum[i] + s.light[i].min(2.0)));
     sum.map(|c| c / number)
 }
@@ -115,7 +116,7 @@ fn narrow_index(sub: usize) -> u32 {
     sub as u32
 }
 
-/// Motion along a line, then the lens's blur (a Gaussian, in both directions one after the other).
+/// The light after motion along a line, and then the blur of the lens (a Gaussian, in one direction after the other).
 fn blurred(mut light: Vec<[f32; 3]>, width: usize, exposure: &Exposure) -> Vec<[f32; 3]> {
     let motion = exposure.motion_px;
     let half = (0.5 * motion.norm()).ceil();
@@ -135,7 +136,7 @@ fn blurred(mut light: Vec<[f32; 3]>, width: usize, exposure: &Exposure) -> Vec<[
     light
 }
 
-/// Weighted mean of the light at some offsets, between pixels by halves of their neighbours (bilinear).
+/// The weighted mean of the light at some offsets. Between pixels it is interpolated from their neighbours (bilinear).
 fn spread(light: &[[f32; 3]], width: usize, taps: &[(Vector2<f64>, f64)]) -> Vec<[f32; 3]> {
     let height = light.len() / width.max(1);
     let total: f64 = taps.iter().map(|(_, weight)| weight).sum();
@@ -170,7 +171,7 @@ fn spread(light: &[[f32; 3]], width: usize, taps: &[(Vector2<f64>, f64)]) -> Vec
 }
 
 impl Exposure {
-    /// Light -> levels: vignetting, gain, noise, tone curve.
+    /// The levels of a pixel with this light, after vignetting, gain, noise and tone curve.
     fn developed(&self, light: [f32; 3], camera: &Camera, [x, y]: [u32; 2], seed: u64) -> [u8; 3] {
         let [width, height] = camera.size_px().map(f64::from);
         let off = Vector2::new(f64::from(x), f64::from(y)) - Vector2::from(camera.principal_px());
@@ -184,7 +185,7 @@ impl Exposure {
     }
 }
 
-/// The tone curve: that of sRGB, with a soft shoulder below white.
+/// The tone curve, which is that of sRGB with a soft shoulder below white.
 fn toned(level: f64) -> f64 {
     let level = level.max(0.0);
     let level = if level > 0.7 { 0.7 + 0.3 * (1.0 - (-(level - 0.7) / 0.3).exp()) } else { level };
@@ -197,7 +198,7 @@ fn to_byte(level: f64) -> u8 {
 }
 
 impl Station {
-    /// At a pose of `model`, moved to a place and turned about Z (from X to Y, radians).
+    /// The station of a camera at a pose of `model`, moved to a place and turned about Z (from X to Y, in radians).
     #[must_use]
     pub fn new(pose: &model::Pose, at_mm: Point2<f64>, turn_rad: f64) -> Self {
         let turn = nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), turn_rad);

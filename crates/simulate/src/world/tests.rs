@@ -1,4 +1,4 @@
-//! Bodies are where they say they are.
+//! Tests that bodies are where they say that they are.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -10,7 +10,8 @@ fn body(form: Form) -> Body {
     Body { form, material: Material::matt(Texture::Plain([0.5; 3])) }
 }
 
-/// A ball, as an ellipsoid, as a capsule of no length, and turned: rays from everywhere meet all three at the same place.
+/// A ball as an ellipsoid, as a capsule of no length, and as a turned profile: rays from everywhere meet all three at the same
+/// place.
 #[test]
 fn a_ball_is_a_ball_whatever_makes_it() {
     let center = Point3::new(10.0, -20.0, 60.0);

@@ -1,49 +1,49 @@
-//! What surfaces look like: colours as shares of the light that they send back, red, green and blue.
+//! Textures of surfaces: colours as shares of red, green and blue light that they send back.
 
 use nalgebra::Point3;
 
 use super::Rgb;
 use super::chance::{noise, share};
 
-/// A pattern on a surface, in mm of the body's own frame (of a table: of the world).
+/// A pattern on a surface, in mm of the body's own frame (for a table, of the world frame).
 #[derive(Debug, Clone, PartialEq)]
 pub enum Texture {
-    /// One colour.
+    /// A single colour.
     Plain(Rgb),
     /// Boards along X with grain.
     Wood {
-        /// Between and in the grain.
+        /// The colours between the grain and in it.
         colours: [Rgb; 2],
         /// Width of a board.
         board_mm: f64,
-        /// Of its lot.
+        /// Seed of its random pattern.
         seed: u64,
     },
     /// A woven cloth with stripes along X, or along both axes.
     Cloth {
-        /// Ground and stripes.
+        /// The colours of the ground and of the stripes.
         colours: [Rgb; 2],
-        /// From one stripe to the next.
+        /// Distance from one stripe to the next.
         stripe_mm: f64,
-        /// Stripes along both axes: checks.
+        /// Whether there are stripes along both axes (checks).
         checks: bool,
-        /// Of its lot.
+        /// Seed of its random pattern.
         seed: u64,
     },
     /// Stone or glazed clay with speckles.
     Speckled {
-        /// Ground and speckles.
+        /// The colours of the ground and of the speckles.
         colours: [Rgb; 2],
         /// Size of a speckle.
         grain_mm: f64,
-        /// Share of the surface that is speckles, about.
+        /// Share of the surface that speckles cover, about.
         share: f64,
-        /// Of its lot.
+        /// Seed of its random pattern.
         seed: u64,
     },
     /// Glazed ware with rings and motifs printed about its axis.
     Printed {
-        /// Ground and print.
+        /// The colours of the ground and of the print.
         colours: [Rgb; 2],
         /// Inner and outer radius of each ring, in mm.
         rings_mm: [[f64; 2]; 2],
@@ -52,16 +52,16 @@ pub enum Texture {
     },
     /// A lit screen with lines of text.
     Screen {
-        /// Of its text.
+        /// Seed of its random text.
         seed: u64,
     },
     /// Food: patches of two colours.
     Food {
-        /// Of the patches.
+        /// The colours of the patches.
         colours: [Rgb; 2],
         /// Size of a patch.
         grain_mm: f64,
-        /// Of its lot.
+        /// Seed of its random pattern.
         seed: u64,
     },
 }
@@ -90,12 +90,12 @@ impl Texture {
     }
 }
 
-/// A share of `b` in `a`.
+/// A mixture of two colours, with a share of `b` from 0 to 1.
 pub(super) fn mix(a: Rgb, b: Rgb, share: f64) -> Rgb {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share)
 }
 
-/// From 0 to 1 about `edge`, within `width` of it.
+/// A smooth step from 0 to 1 at `edge`, within `width` of it.
 fn step(edge: f64, width: f64, at: f64) -> f64 {
     let t = ((at - edge) / width + 0.5).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

@@ -1,19 +1,19 @@
-//! Surfaces of revolution: a profile turned about an upright axis.
+//! Surfaces of revolution: a profile that is turned about an upright axis.
 
 use nalgebra::{Point2, Vector2, Vector3};
 
 use super::body::Touch;
 use crate::scene::Ray;
 
-/// Neighbouring pieces of a profile that meet at less than this angle (its cosine) are one round surface.
+/// Cosine of the angle at which neighbouring pieces of a profile may meet at most to be one round surface.
 const CREASE_COS: f64 = 0.6;
 
-/// A profile turned about an axis.
+/// A profile that is turned about an upright axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Turned {
     axis_mm: Point2<f64>,
     pieces: Vec<Piece>,
-    /// Of a ball around it.
+    /// Height of the centre of a ball around it; `reach_mm` is the radius of the ball.
     middle_z_mm: f64,
     reach_mm: f64,
 }
@@ -23,12 +23,13 @@ pub struct Turned {
 struct Piece {
     from: Vector2<f64>,
     to: Vector2<f64>,
-    /// Normals at both ends, in the plane of the profile.
+    /// The normals at both ends, in the plane of the profile.
     normals: [Vector2<f64>; 2],
 }
 
 impl Turned {
-    /// `profile`: points (distance from the axis, height) in mm, in order along the surface.
+    /// The surface of a `profile` about an axis. The profile is a list of points (distance from the axis, height) in mm, in their
+    /// order along the surface.
     #[must_use]
     pub fn new(axis_mm: Point2<f64>, profile: &[[f64; 2]]) -> Self {
         let flat: Vec<Piece> = profile
@@ -55,18 +56,18 @@ impl Turned {
         Self { axis_mm, pieces: pieces.collect(), middle_z_mm, reach_mm }
     }
 
-    /// Centre and radius of a ball around it.
+    /// Centre and radius of a ball around the surface.
     pub(super) fn ball(&self) -> (nalgebra::Point3<f64>, f64) {
         (nalgebra::Point3::new(self.axis_mm.x, self.axis_mm.y, self.middle_z_mm), self.reach_mm)
     }
 
-    /// Where it stands.
+    /// The place of the axis, in mm.
     #[must_use]
     pub fn axis_mm(&self) -> Point2<f64> {
         self.axis_mm
     }
 
-    /// The nearest point of it along the ray, further than `least`.
+    /// The nearest point of the surface along the ray that is further than `least`, in lengths of the ray's direction.
     pub(super) fn touch(&self, ray: &Ray, least: f64) -> Option<Touch> {
         let mut best: Option<(f64, &Piece, f64)> = None;
         for piece in &self.pieces {
@@ -83,7 +84,7 @@ impl Turned {
         Some(Touch { distance, normal })
     }
 
-    /// Both places where a ray meets a piece's cone: distance, and share of the way along the piece.
+    /// Both points where a ray meets the cone of a piece: the distance, and the share of the way along the piece.
     fn meets(&self, piece: &Piece, ray: &Ray) -> [Option<(f64, f64)>; 2] {
         let (o, d) = (ray.origin.xy() - self.axis_mm, ray.direction);
         let rise = piece.to.y - piece.from.y;

@@ -1,4 +1,4 @@
-//! What a check found, for programs.
+//! The result of a check, for programs.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::Verdict;
 use crate::commands::PROGRAM;
 
-/// Rises when a key is removed, renamed, or changes its meaning.
+/// Version of the JSON. It rises when a key is removed, renamed, or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
 
 #[derive(Serialize)]
@@ -23,7 +23,7 @@ struct Document<'a> {
     flow: Steps,
 }
 
-/// Numbers of sessions.
+/// Numbers of sessions: all, and those of each verdict.
 #[derive(Serialize)]
 struct Verdicts {
     sessions: usize,
@@ -40,7 +40,7 @@ struct Session<'a> {
     flow: Option<Steps>,
 }
 
-/// Numbers of images: those that reach each step, and those left out by each reason.
+/// Numbers of images: those that reach each step of the flow, and those that each reason leaves out.
 #[derive(Serialize)]
 struct Steps {
     steps: BTreeMap<&'static str, usize>,
@@ -60,7 +60,7 @@ impl Steps {
     }
 }
 
-/// One document.
+/// The result of a check as a JSON document.
 pub fn text(study: &Study, checked: &Checked) -> serde_json::Result<String> {
     let flows: BTreeMap<&str, &Flow> = checked.flow.sessions().collect();
     let session = |status| Session {

@@ -1,4 +1,4 @@
-//! `check`: everything that a run would lose, before it.
+//! `check`: shows, before a run, everything that the run would lose.
 
 mod json;
 mod text;
@@ -14,7 +14,7 @@ use super::{PROGRAM, outcome, print, settings, stop_on_signals, survey_failure};
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
-/// `check`.
+/// The arguments of `check`.
 #[derive(Debug, clap::Args)]
 pub struct CheckArgs {
     /// Folder of the study (docs/study.md); nothing is written into it
@@ -33,7 +33,7 @@ pub struct CheckArgs {
     pub settings: SettingsArgs,
 }
 
-/// Checks the study, and tells what would be lost.
+/// Checks the study, and prints what would be lost, as text or as JSON. Fails where no session could be used.
 pub fn run(args: &CheckArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let study = settings::load(&args.study, &args.settings)?;
     let options = SurveyOptions { jobs: args.jobs, program: PROGRAM.to_owned(), stop: stop_on_signals()? };
@@ -49,7 +49,7 @@ pub fn run(args: &CheckArgs, bars: &Bars) -> Result<Outcome, Failure> {
     Ok(outcome(checked.sessions.iter().any(SessionStatus::has_losses)))
 }
 
-/// As a run would give them, but for sizes: for the tables of images.
+/// Results without sizes, as a run would give them, for the tables of images.
 fn results(study: &Study, checked: &Checked) -> ::report::Results {
     let metadata = RunMetadata {
         program: PROGRAM.to_owned(),
@@ -64,7 +64,7 @@ fn results(study: &Study, checked: &Checked) -> ::report::Results {
     ::report::Results { rows: Vec::new(), metadata, flow: Some(checked.flow.clone()) }
 }
 
-/// How a session would fare.
+/// How a session would fare in a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 enum Verdict {

@@ -1,4 +1,4 @@
-//! What a check found, for people.
+//! The result of a check, for people.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,8 @@ use super::Verdict;
 use crate::commands::problems::{describe, kinds};
 use crate::commands::{as_wide_as_the_terminal, flow_tables};
 
-/// Blocks of sessions with something to say, what concerns the study, the flow of images, the verdict.
+/// The result of a check as text: a block for each session that has problems, a block for the study as a whole, the flow of
+/// images, and the verdict.
 pub fn text(checked: &Checked, results: &::report::Results, with_notes: bool) -> String {
     let mut text = String::new();
     for session in &checked.sessions {
@@ -27,9 +28,9 @@ pub fn text(checked: &Checked, results: &::report::Results, with_notes: bool) ->
 }
 
 fn push_session(text: &mut String, session: &SessionStatus, with_notes: bool) {
-    let told = |severity: Severity| session.problems.iter().filter(move |problem| problem.severity == severity);
-    let notes = told(Severity::Note).count();
-    if told(Severity::Loss).count() == 0 && !(with_notes && notes > 0) {
+    let of_severity = |severity: Severity| session.problems.iter().filter(move |problem| problem.severity == severity);
+    let notes = of_severity(Severity::Note).count();
+    if of_severity(Severity::Loss).count() == 0 && !(with_notes && notes > 0) {
         return;
     }
     let hidden = match notes {
@@ -38,7 +39,7 @@ fn push_session(text: &mut String, session: &SessionStatus, with_notes: bool) {
         notes => format!(" (and {})", count(notes, "note")),
     };
     let _ = writeln!(text, "{}: {}{hidden}", session.session, Verdict::from_status(session).words());
-    push_problems(text, told(Severity::Loss).chain(told(Severity::Note).filter(|_| with_notes)));
+    push_problems(text, of_severity(Severity::Loss).chain(of_severity(Severity::Note).filter(|_| with_notes)));
     text.push('\n');
 }
 

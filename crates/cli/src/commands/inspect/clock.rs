@@ -1,10 +1,10 @@
-//! What a sensor's clock did, for people.
+//! The behaviour of a sensor's clock, for people.
 
 use pipeline::inspect::{ClockFacts, Gaps};
 
 use super::words::{count, duration, line, moment, more, span, span_line};
 
-/// Lines under the heading of a sensor.
+/// Appends the lines of a sensor: its heading `name`, its rate, and the gaps, losses and jumps of its clock.
 pub fn push(text: &mut String, name: &str, clock: &ClockFacts) {
     let declared = format!("{} Hz declared", clock.nominal_rate_hz);
     let rate = match clock.measured_rate_hz {

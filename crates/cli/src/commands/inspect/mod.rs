@@ -1,4 +1,4 @@
-//! `inspect`: what is in a recording, or in those of a study.
+//! `inspect`: shows the content of a recording, or of those of a study.
 
 mod clock;
 mod sparkline;
@@ -20,7 +20,7 @@ use super::{PROGRAM, outcome, print, stop_on_signals, survey_failure};
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
-/// `inspect`.
+/// The arguments of `inspect`.
 #[derive(Debug, clap::Args)]
 pub struct InspectArgs {
     /// MCAP file that ingest or run wrote, or folder of a study; nothing is written there
@@ -34,12 +34,12 @@ pub struct InspectArgs {
     pub json: bool,
 }
 
-/// Rises when a key is removed, renamed, or changes its meaning.
+/// Version of the JSON. It rises when a key is removed, renamed, or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
-/// How MCAP files begin.
+/// The bytes that every MCAP file begins with.
 const MCAP_MAGIC: &[u8] = b"\x89MCAP0\r\n";
 
-/// Inspects, and tells what is there.
+/// Inspects a recording, or all of a study, and prints the facts, as text or as JSON. Fails where no session could be used.
 pub fn run(args: &InspectArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let inspected = if args.path.is_dir() {
         let study = study(&args.path)?;
@@ -72,7 +72,7 @@ fn study(folder: &Path) -> Result<Study, Failure> {
     Study::load(folder, |_| {}).map_err(Failure::usage)
 }
 
-/// What is no MCAP file at all is not called a damaged one.
+/// Refuses a file that is no MCAP file at all, which would otherwise be called a damaged one.
 fn require_mcap(path: &Path) -> Result<(), Failure> {
     let mut start = Vec::new();
     let file = File::open(path).with_context(|| format!("cannot open {}", path.display())).map_err(Failure::Usage)?;
@@ -97,14 +97,14 @@ struct Session<'a> {
     problem: Option<&'a Problem>,
 }
 
-impl<'a> Session<'a> {
-    fn of(inspected: &'a Inspected) -> Self {
+impl<'a> From<&'a Inspected> for Session<'a> {
+    fn from(inspected: &'a Inspected) -> Self {
         let Inspected { session, facts } = inspected;
         Self { session, facts: facts.as_ref().ok(), problem: facts.as_ref().err() }
     }
 }
 
 fn json(inspected: &[Inspected]) -> serde_json::Result<String> {
-    let sessions = inspected.iter().map(Session::of).collect();
+    let sessions = inspected.iter().map(Session::from).collect();
     serde_json::to_string_pretty(&Document { schema_version: SCHEMA_VERSION, program: PROGRAM, sessions })
 }

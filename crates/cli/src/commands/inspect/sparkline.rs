@@ -1,20 +1,21 @@
-//! Histograms on one line.
+//! Histograms on a line of text.
 
 use pipeline::inspect::Histogram;
 
 use super::words::count;
 
 const BARS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
-/// In place of a bar: nothing there.
+/// Stands in place of a bar where a bin has no count.
 const NONE: char = '·';
 
-/// `0 |··▁█▃·| 30 deg`: one character per bin, as high as its count is of the largest; never low enough to vanish.
+/// A histogram as `0 |··▁█▃·| 30 deg`, one character per bin. The bar of a bin is as high as its share of the largest count,
+/// rounded up, so that no bin with a count vanishes.
 pub fn sparkline(histogram: &Histogram, unit: &str) -> String {
     let largest = histogram.counts.iter().copied().max().unwrap_or(0).max(1);
     let top = BARS.len() as u64;
     let bar = |count: &u64| match *count {
         0 => NONE,
-        // In 128 bits: a count times 8 may pass 64.
+        // In 128 bits, since 8 times a count may not fit 64.
         count => {
             let height = (u128::from(count) * u128::from(top)).div_ceil(u128::from(largest));
             BARS[usize::try_from(height).map_or(0, |height| height.clamp(1, BARS.len()) - 1)]
@@ -24,12 +25,12 @@ pub fn sparkline(histogram: &Histogram, unit: &str) -> String {
     format!("{} |{bars}| {} {unit}, {} {unit} each", histogram.from, histogram.to, histogram.bin_width)
 }
 
-/// Where most values are, and how many are outside.
+/// A histogram in words: the number of values, the bin that holds most of them, and the numbers of those outside.
 #[expect(clippy::cast_precision_loss, reason = "for people, who read two digits")]
 pub fn in_words(histogram: &Histogram, unit: &str, what: &str) -> String {
     let mut words = count(histogram.total(), what);
     let most = histogram.counts.iter().copied().max().unwrap_or(0);
-    // The first of equals.
+    // Of equal counts, the first.
     if let Some(bin) = histogram.counts.iter().position(|count| most > 0 && *count == most) {
         let from = histogram.from + bin as f64 * histogram.bin_width;
         let pct = 100.0 * most as f64 / histogram.total() as f64;

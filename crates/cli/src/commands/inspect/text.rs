@@ -1,4 +1,4 @@
-//! What is in recordings, for people: 80 columns, no colours.
+//! The content of recordings as text for people: 80 columns, no colours.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use super::sparkline::{in_words, sparkline};
 use super::words::{count, duration, line, moment, more, span, span_line};
 use crate::commands::problems::describe;
 
-/// All sessions, one under the other.
+/// The facts of all sessions as text, one session under the other.
 pub fn text(inspected: &[Inspected]) -> String {
     let sessions: Vec<String> = inspected.iter().map(session).collect();
     sessions.join("\n")
@@ -106,12 +106,12 @@ fn push_images(text: &mut String, facts: &ImageFacts) {
     }
 }
 
-/// Codes with their numbers; `check` tells the rest.
+/// Appends the codes of the problems with their numbers; `check` shows them in full.
 fn push_problems(text: &mut String, problems: &[Problem]) {
     for (name, severity) in [("losses", Severity::Loss), ("notes", Severity::Note)] {
         let mut codes: BTreeMap<&str, usize> = BTreeMap::new();
         for problem in problems.iter().filter(|problem| problem.severity == severity) {
-            *codes.entry(&problem.code).or_default() += 1;
+            *codes.entry(problem.code.code()).or_default() += 1;
         }
         if codes.is_empty() {
             line(text, 2, name, "none on the card");

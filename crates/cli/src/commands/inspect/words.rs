@@ -1,30 +1,30 @@
-//! Times, lengths of time and numbers, as people read them.
+//! Times, durations and numbers, as people read them.
 
 use pipeline::inspect::{LocalSpan, Moment};
 
-/// Columns before the words of a line.
+/// Number of columns before the words of a line.
 pub const MARGIN: usize = 16;
 
-/// A line with its name, at a depth of two or four columns.
+/// Appends a line with a name, indented by `depth` columns, and words after the margin.
 pub fn line(text: &mut String, depth: usize, name: &str, words: &str) {
     let name = format!("{:depth$}{name}", "");
-    // A long name keeps its distance.
+    // A long name keeps one space of distance.
     let gap = if name.chars().count() < MARGIN { "" } else { " " };
     let width = MARGIN;
     text.push_str(&format!("{name:width$}{gap}{words}\n"));
 }
 
-/// A line that goes on with the one before.
+/// Appends a line that goes on with the one before.
 pub fn more(text: &mut String, words: &str) {
     line(text, 0, "", words);
 }
 
-/// `2021-03-01 09:00:10.250 -06:00`.
+/// A local time as `2021-03-01 09:00:10.250 -06:00`.
 pub fn moment(moment: &Moment) -> String {
     moment.0.strftime("%Y-%m-%d %H:%M:%S%.3f %:z").to_string()
 }
 
-/// From one moment to another, with the time between; two lines where they are not of one day and offset.
+/// The two ends of a span and the time between them; two lines where the ends differ in day or UTC offset.
 pub fn span(span: &LocalSpan) -> Vec<String> {
     let (from, to) = (&span.from.0, &span.to.0);
     let length = duration(span.duration_s);
@@ -35,7 +35,7 @@ pub fn span(span: &LocalSpan) -> Vec<String> {
     vec![format!("{} to", moment(&span.from)), format!("{}, {length}", moment(&span.to))]
 }
 
-/// A line, or two, with a span.
+/// Appends one or two lines with a span, or `nothing` where there is none.
 pub fn span_line(text: &mut String, depth: usize, name: &str, recorded: Option<&LocalSpan>) {
     let words = recorded.map_or_else(|| vec!["nothing".to_owned()], span);
     for (i, words) in words.iter().enumerate() {
@@ -43,10 +43,10 @@ pub fn span_line(text: &mut String, depth: usize, name: &str, recorded: Option<&
     }
 }
 
-/// `12.345 s`, `1 min 35.8 s`, `16 h 01 min 35 s`.
+/// A duration as `12.345 s`, `1 min 35.8 s` or `16 h 01 min 35 s`.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative, and the cast saturates")]
 pub fn duration(seconds: f64) -> String {
-    // Rounded first, so that no minute has 60 seconds.
+    // Rounding comes first, so that no minute has 60 seconds.
     let (tenths, whole) = ((seconds * 10.0).round() as u64, seconds.round() as u64);
     if seconds < 59.9995 {
         format!("{seconds:.3} s")
@@ -57,7 +57,7 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// `1 gap`, `2 gaps`.
+/// A number of things as `1 gap` or `2 gaps`.
 pub fn count(n: u64, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }

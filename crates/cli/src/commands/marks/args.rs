@@ -4,27 +4,27 @@ use std::path::PathBuf;
 
 use clap::{Subcommand, ValueEnum};
 
-/// `marks`.
+/// The arguments of `marks`.
 #[derive(Debug, clap::Args)]
 pub struct MarksArgs {
-    /// Which way
+    /// Direction: into the study or out of it
     #[command(subcommand)]
     pub way: MarksWay,
 }
 
-/// The ways.
+/// The directions in which marks are converted.
 #[derive(Debug, Subcommand)]
 pub enum MarksWay {
-    /// CVAT's XML or COCO's JSON into LabelMe files, marks/RATER/SESSION/IMAGE.json of the study (docs/marks.md)
+    /// Turn CVAT's XML or COCO's JSON into LabelMe files, marks/RATER/SESSION/IMAGE.json of the study (docs/marks.md)
     ///
     /// Labels are OBJECT/WHAT, with OBJECT of objects.csv and WHAT one of diameter, width, length, height (2 points) and rim,
-    /// base (an outline). What cannot be used is told with what was expected; the rest is used, and the exit code is 3.
+    /// base (an outline). Whatever cannot be used is listed with what was expected; the rest is used, and the exit code is 3.
     Import(MarksImportArgs),
-    /// The marks of one rater as one file for CVAT, or for what reads COCO
+    /// Write the marks of one rater as one file for CVAT, or for programs that read COCO
     Export(MarksExportArgs),
 }
 
-/// `marks import`.
+/// The arguments of `marks import`.
 #[derive(Debug, clap::Args)]
 pub struct MarksImportArgs {
     /// Folder of the study (docs/study.md), for its objects and the pictures of its cards
@@ -42,7 +42,7 @@ pub struct MarksImportArgs {
     /// alone has an image of this name
     #[arg(long, value_name = "SESSION")]
     pub session: Option<String>,
-    /// What a label of the file stands for, such as --label 'Bowl rim=red bowl/rim'; may be given again
+    /// Meaning of a label of the file, such as --label 'Bowl rim=red bowl/rim'; may be given again
     #[arg(long, value_name = "LABEL=OBJECT/WHAT", value_parser = renamed)]
     pub label: Vec<(String, String)>,
     /// A label that is no mark, and is meant to be passed over; may be given again
@@ -54,20 +54,20 @@ pub struct MarksImportArgs {
     /// Write over files that hold other marks
     #[arg(long)]
     pub force: bool,
-    /// Write nothing, and tell what would be written and what cannot be used
+    /// Write nothing, and show what would be written and what cannot be used
     #[arg(long)]
     pub dry_run: bool,
 }
 
-/// `marks export`.
+/// The arguments of `marks export`.
 #[derive(Debug, clap::Args)]
 pub struct MarksExportArgs {
     /// Folder of the study (docs/study.md)
     pub study: PathBuf,
-    /// Whose marks
+    /// Whose marks are written
     #[arg(long, value_name = "NAME")]
     pub rater: String,
-    /// For which tool
+    /// Format of the file
     #[arg(long, value_enum)]
     pub format: MarksFormat,
     /// The file to write; one that is there is written over
@@ -75,7 +75,7 @@ pub struct MarksExportArgs {
     pub out: PathBuf,
 }
 
-/// Formats of other tools.
+/// The formats of other tools that marks are written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum MarksFormat {
     /// JSON: outlines as polygons, lines as two keypoints

@@ -1,4 +1,4 @@
-//! `marks`: marks from and to other annotation tools.
+//! `marks`: converts marks from and to other annotation tools.
 
 mod args;
 
@@ -15,7 +15,7 @@ use args::{MarksExportArgs, MarksFormat, MarksImportArgs, MarksWay};
 use super::{PROGRAM, outcome, place, print, print_message};
 use crate::exit::{Failure, Outcome};
 
-/// Carries marks over, and tells what could not be.
+/// Converts the marks, and lists those that could not be converted.
 pub fn run(way: &MarksWay) -> Result<Outcome, Failure> {
     match way {
         MarksWay::Import(args) => import(args),
@@ -95,7 +95,7 @@ fn failure(error: ExchangeError) -> Failure {
     }
 }
 
-/// What was left out, each reason once, with every place that it holds for.
+/// The reasons for which marks were left out as text: each reason once, with every place in `file` that it holds for.
 fn reasons_text(file: &Path, head: &str, refused: &[Refused]) -> String {
     let mut by_fact: Vec<(&str, Vec<&str>)> = Vec::new();
     let mut number_of = std::collections::HashMap::new();

@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use model::{Kind, Shape, Wall};
-use pipeline::rims::RimShape;
+use rims::RimShape;
 
 use crate::commands::view::PoseArgs;
 
-/// `measure`.
+/// The arguments of `measure`.
 #[derive(Debug, clap::Args)]
 pub struct MeasureArgs {
     /// The picture
@@ -15,11 +15,11 @@ pub struct MeasureArgs {
     /// Where the camera is
     #[command(flatten)]
     pub pose: PoseArgs,
-    /// What it is: plate (on the table; with --auto at the height that its rim seems to have), bowl or box (with a height);
-    /// with --auto, default: as it looks
+    /// Kind of container: plate (on the table; with --auto at the height that its rim seems to have), bowl or box (with a
+    /// height); with --auto, default: as it looks
     #[arg(long, required_unless_present = "auto")]
     pub kind: Option<Kind>,
-    /// Its outline; default: circle for plates and bowls, rectangle for boxes
+    /// Outline of the container; default: circle for plates and bowls, rectangle for boxes
     #[arg(long)]
     pub shape: Option<Shape>,
     /// Marks, as a LabelMe file (docs/study.md)
@@ -31,7 +31,7 @@ pub struct MeasureArgs {
     /// Shapes of rims that --auto looks for (circle, rectangle), separated by commas
     #[arg(long, value_delimiter = ',', default_value = "circle", requires = "auto")]
     pub shapes: Vec<RimShape>,
-    /// Least confidence of a rim that is told, 0 to 1
+    /// Least confidence of a rim that is shown, 0 to 1
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, requires = "auto")]
     pub min_confidence: f64,
     /// Height of the rim above the table in mm, where it is known and not to be measured

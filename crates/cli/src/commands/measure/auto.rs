@@ -1,10 +1,10 @@
-//! `measure --auto`: rims found in the picture, and their sizes.
+//! `measure --auto`: finds rims in the picture, and measures them.
 
 use anyhow::{Context, anyhow};
 use ingest::Picture;
 use model::{Container, Kind, Method, Shape, View};
-use pipeline::rims::{HeightSource, Rim, find_rims_of};
 use pipeline::study::UncertaintySpec;
+use rims::{HeightSource, Rim, find_rims_of};
 
 use super::super::{outcome, print, print_message};
 use super::args::MeasureArgs;
@@ -15,7 +15,7 @@ use crate::exit::{Failure, Outcome};
 /// The methods for a rim alone, the one with fewer assumptions first.
 const METHODS: [Method; 2] = [Method::Ray, Method::Paper];
 
-/// Finds, measures and prints.
+/// Finds the rims in the picture, and prints their sizes. A rim without a size is a loss.
 pub fn run(args: &MeasureArgs, view: &View, bytes: &[u8]) -> Result<Outcome, Failure> {
     if args.kind == Some(Kind::Box) {
         return Err(Failure::Usage(anyhow!("--auto finds no boxes: mark them, and give --marks")));
@@ -48,7 +48,7 @@ pub fn run(args: &MeasureArgs, view: &View, bytes: &[u8]) -> Result<Outcome, Fai
             found: Some(found.clone()),
             ..describe(&object, &container, quantity, method, &size)
         }));
-        drawn.push(overlay::of_rim(rim, &container, &object, &sizes[first..]));
+        drawn.push(overlay::found_rim(rim, &container, &object, &sizes[first..]));
     }
     overlay::write(args, view, picture, &drawn)?;
     print(&if args.json { format!("{}\n", serde_json::to_string_pretty(&sizes)?) } else { text(&sizes, &inputs) })?;

@@ -1,4 +1,4 @@
-//! `measure --marks`: sizes of what a person marked.
+//! `measure --marks`: measures the objects that a person marked.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -17,7 +17,8 @@ use crate::exit::{Failure, Outcome};
 /// The methods, the one with fewer assumptions first.
 const METHODS: [Method; 3] = [Method::Coaxial, Method::Ray, Method::Paper];
 
-/// Measures and prints.
+/// Measures the marked objects, and prints their sizes. A mark or an object that gives no size is a loss; the command fails
+/// where nothing could be measured.
 pub fn run(args: &MeasureArgs, view: &View, picture: &[u8], marks_file: &Path, kind: Kind) -> Result<Outcome, Failure> {
     let bytes = labelme::read_bytes(marks_file).map_err(Failure::usage)?;
     let marks = labelme::parse(&bytes, marks_file, view.camera().size_px())?;
@@ -36,10 +37,20 @@ pub fn run(args: &MeasureArgs, view: &View, picture: &[u8], marks_file: &Path, k
             found.into_iter().map(move |(quantity, size)| describe(&object.object, &container, quantity, method, &size))
         })
         .collect();
-    let sizes = without_open_ends(sizes);
-    overlay::of_marked(args, view, picture, &container, &marks.objects, &sizes)?;
+    let sizes = without_missing_heights(sizes);
+    overlay::write_marked(args, view, picture, &container, &marks.objects, &sizes)?;
     print(&if args.json { format!("{}\n", serde_json::to_string_pretty(&sizes)?) } else { text(&sizes, &inputs) })?;
-    for object in marks.objects.iter().filter(|object| !object.inside_picture(view.camera().size_px())) {
+    let lost = report_problems(&marks, &sizes, view.camera().size_px(), shape);
+    if sizes.iter().all(|size| size.predicted_mm.is_none()) {
+        return Err(Failure::Failed(anyhow!("nothing could be measured from the marks in {}", marks_file.display())));
+    }
+    Ok(outcome(lost || sizes.iter().any(|size| size.predicted_mm.is_none())))
+}
+
+/// Reports marks outside the picture, and everything that gives no size. Returns whether marks were refused, or an object has no
+/// size at all.
+fn report_problems(marks: &labelme::Marks, sizes: &[Size], size_px: [u32; 2], shape: Shape) -> bool {
+    for object in marks.objects.iter().filter(|object| !object.inside_picture(size_px)) {
         print_message(&format!("warning: marks of '{}' lie outside the picture\n", object.object));
     }
     let mut lost = !marks.refused.is_empty();
@@ -50,22 +61,20 @@ pub fn run(args: &MeasureArgs, view: &View, picture: &[u8], marks_file: &Path, k
         lost = true;
         tracing::error!("the marks of '{}' give no size of a {shape}", object.object);
     }
-    let mut told = BTreeSet::new();
-    for size in &sizes {
+    let mut reported = BTreeSet::new();
+    for size in sizes {
         if let Some(problem) = &size.problem
-            && told.insert((&size.object, size.quantity, problem))
+            && reported.insert((&size.object, size.quantity, problem))
         {
             tracing::error!("{} of '{}' by {}: {problem}", size.quantity, size.object, size.method);
         }
     }
-    if sizes.iter().all(|size| size.predicted_mm.is_none()) {
-        return Err(Failure::Failed(anyhow!("nothing could be measured from the marks in {}", marks_file.display())));
-    }
-    Ok(outcome(lost || sizes.iter().any(|size| size.predicted_mm.is_none())))
+    lost
 }
 
-/// A height that nobody marked is missing in methods that need a line; where another one does without, that is no problem.
-fn without_open_ends(sizes: Vec<Size>) -> Vec<Size> {
+/// The sizes, without the heights that a method lacks because nobody marked a line for it, where another method has measured
+/// the height without such a line.
+fn without_missing_heights(sizes: Vec<Size>) -> Vec<Size> {
     let measured: BTreeSet<(String, Quantity)> =
         sizes.iter().filter(|s| s.predicted_mm.is_some()).map(|s| (s.object.clone(), s.quantity)).collect();
     let no_height = MeasureError::NoHeight.to_string();

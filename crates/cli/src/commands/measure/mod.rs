@@ -1,4 +1,4 @@
-//! `measure`: sizes of what is marked, or found, in one picture.
+//! `measure`: measures the objects that are marked, or found, in one picture.
 
 mod args;
 mod auto;
@@ -17,10 +17,10 @@ pub use args::MeasureArgs;
 use super::view;
 use crate::exit::{Failure, Outcome};
 
-/// More of a picture is not read to find its size.
+/// Number of bytes that are read of a picture at most.
 const LARGEST_PICTURE_BYTES: u64 = 64 << 20;
 
-/// Measures and prints.
+/// Measures the picture by marks where they are given, and else by the rims that are found in it, and prints the sizes.
 pub fn run(args: &MeasureArgs) -> Result<Outcome, Failure> {
     let view = view::from_args(&args.pose)?;
     if args.rim_height.is_some_and(|mm| !(mm.is_finite() && mm >= 0.0)) {
@@ -33,7 +33,8 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome, Failure> {
     }
 }
 
-/// The bytes of the picture. It must be the camera's: a scaled copy would be measured wrongly without a word.
+/// The bytes of the picture. Fails where its size is not that of the camera's pictures, since a scaled copy would be measured
+/// wrongly without a warning.
 fn read_picture(args: &MeasureArgs, view: &View) -> Result<Vec<u8>, Failure> {
     let [width, height] = view.camera().size_px();
     let mut bytes = Vec::new();

@@ -1,17 +1,17 @@
-//! `measure --overlay`: what was measured, drawn on the picture.
+//! `measure --overlay`: draws the measured outlines and sizes on the picture.
 
 use anyhow::Context;
 use ingest::Picture;
 use model::{Container, Kind, Method, ObjectMarks, View};
 use pipeline::overlay::{Drawn, draw};
-use pipeline::rims::Rim;
+use rims::Rim;
 
 use super::args::MeasureArgs;
 use super::size::Size;
 use crate::exit::Failure;
 
-/// Draws people's marks and their sizes, if an overlay is asked for.
-pub fn of_marked(
+/// Writes the picture with people's marks and their sizes, where an overlay is asked for.
+pub fn write_marked(
     args: &MeasureArgs,
     view: &View,
     bytes: &[u8],
@@ -40,8 +40,8 @@ pub fn of_marked(
     write(args, view, picture, &drawn)
 }
 
-/// What is drawn of a rim that was found.
-pub fn of_rim(rim: &Rim, container: &Container, object: &str, sizes: &[Size]) -> Drawn {
+/// The outline and the lines of text that are drawn for a found rim.
+pub fn found_rim(rim: &Rim, container: &Container, object: &str, sizes: &[Size]) -> Drawn {
     Drawn {
         marks: rim.marks(object),
         shape: container.shape,
@@ -53,14 +53,14 @@ pub fn of_rim(rim: &Rim, container: &Container, object: &str, sizes: &[Size]) ->
 fn lines<'a>(object: &str, confidence: Option<f64>, sizes: impl IntoIterator<Item = &'a Size>) -> Vec<String> {
     let head = confidence.map_or(object.to_owned(), |confidence| format!("{object} {confidence:.2}"));
     let by_ray = sizes.into_iter().filter(|size| size.method == Method::Ray);
-    let told = by_ray.filter_map(|size| {
+    let sizes = by_ray.filter_map(|size| {
         let sigma = size.sigma_mm.map_or(String::new(), |mm| format!(" +- {mm:.1}"));
         Some(format!("{} {:.1}{sigma} mm", size.quantity, size.predicted_mm?))
     });
-    std::iter::once(head).chain(told).collect()
+    std::iter::once(head).chain(sizes).collect()
 }
 
-/// Writes the overlay, if one is asked for.
+/// Writes the picture with everything drawn on it as PNG, where an overlay is asked for.
 pub fn write(args: &MeasureArgs, view: &View, mut picture: Picture, drawn: &[Drawn]) -> Result<(), Failure> {
     let Some(file) = &args.overlay else { return Ok(()) };
     draw(&mut picture, view, drawn);

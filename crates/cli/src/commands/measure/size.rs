@@ -1,11 +1,11 @@
-//! One size, as JSON and as a line of text.
+//! A size, as JSON and as a line of text.
 
 use std::fmt::Write as _;
 
 use model::{Container, Doubt, Estimate, InputSigma, Kind, MeasureError, Method, Quantity, Shape};
 use serde::Serialize;
 
-/// One size, as JSON.
+/// A size as it stands in JSON, or the reason why there is none (`problem`).
 #[derive(Serialize)]
 pub struct Size {
     pub object: String,
@@ -26,22 +26,22 @@ pub struct Size {
     pub doubts: Vec<Doubt>,
     pub marks: usize,
     pub problem: Option<String>,
-    /// What is known of a rim that was found, not marked.
+    /// The rim that was measured, where it was found and not marked.
     #[serde(flatten)]
     pub found: Option<Found>,
 }
 
-/// A rim that was found, as JSON.
+/// A found rim as it stands in JSON.
 #[derive(Serialize, Clone)]
 pub struct Found {
     pub confidence: f64,
     pub center_px: [f64; 2],
     pub rim_px: Vec<[f64; 2]>,
-    /// Where the height of its plane comes from: given, foot, common.
+    /// The source of the height of the rim's plane: given, foot, floor or common.
     pub rim_height_from: &'static str,
 }
 
-/// A size as it is told.
+/// The size of an object, as it is printed.
 pub fn describe(
     object: &str,
     container: &Container,
@@ -74,7 +74,7 @@ pub fn describe(
     }
 }
 
-/// Sizes as lines of text.
+/// A table of the sizes as text, with the assumed uncertainties of the inputs below it.
 pub fn text(sizes: &[Size], inputs: &InputSigma) -> String {
     let mut text = String::new();
     let sure = sizes.iter().any(|size| size.found.is_some());

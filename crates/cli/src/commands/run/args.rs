@@ -52,8 +52,8 @@ pub struct RunArgs {
     pub tolerance: f64,
 }
 
-/// The number of bytes that a text such as `512M` stands for; K, M, G and T are powers of 1024. Fails where the text is no whole
-/// number with such a unit, or the number is zero or does not fit 64 bits.
+/// The number of bytes that a text such as `512M` stands for; K, M, G and T are powers of 1024. Fails where the text is no
+/// whole number with such a unit, or the number of bytes is zero or does not fit 64 bits.
 fn parse_bytes(text: &str) -> Result<u64, String> {
     let text = text.trim();
     let digits = text.trim_end_matches(|c: char| !c.is_ascii_digit());

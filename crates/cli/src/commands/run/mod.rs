@@ -1,15 +1,17 @@
-//! `run`: the main job.
+//! `run`: the main job, from cards and marks to results, tables and report.
 
 mod args;
+mod messages;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use model::SessionStatus;
-use pipeline::{Annotated, Halted, Holder, MarksWritten, NotAnnotated, RunError, RunOptions, WriteMarksError};
-use report::{FileError, Results, SinkError};
+use pipeline::{Annotated, Halted, Holder, MarksWritten, Ran, RunError, RunOptions, Study, WriteMarksError};
+use report::{FileError, ParquetSink, Results, SinkError, frames_file, run_file};
 
 pub use args::RunArgs;
+use messages::{print_annotated, print_marks};
 
 use super::summary::{Finished, print_summary};
 use super::{COMMIT, PROGRAM, outcome, page, place, print, print_message, settings, stop_on_signals, tables_text};
@@ -17,7 +19,8 @@ use crate::exit::{Failure, Outcome};
 use crate::logging::LogFormat;
 use crate::progress::Bars;
 
-/// Runs the study, prints the tables and what was lost.
+/// Runs the study, prints the tables, and writes the summary with all losses to stderr. Fails where the study or the output
+/// cannot be used, no session could be used, or (with `--expect`) the tables differ from the expected ones.
 pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Failure> {
     check(args)?;
     let study = settings::load(&args.study, &args.settings)?;
@@ -26,57 +29,86 @@ pub fn run(args: &RunArgs, format: LogFormat, bars: &Bars) -> Result<Outcome, Fa
         place::check_marks(folder, &study)?;
     }
     let out = &args.place.out;
-    let frames = ::report::frames_file(out);
     if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     }
     let options = options(args)?;
-    let sink = ::report::ParquetSink::create(out, &frames);
-    let mut sink = sink.map_err(|error| named(error, &options.work_dir))?;
+    let work = work(args, &study, &options, bars)?;
+    let mut results = Results::read(out)?;
+    results.read_flow(&frames_file(out))?;
+    print(&tables_text(&results))?;
+    let report = args.report.as_ref().map(|dir| page::write(&results, source(out, &options), dir, bars)).transpose()?;
+    let (page, lost_pictures) = report.map_or((None, false), |report| (Some(report.page), report.lost));
+    let files: Vec<PathBuf> = [out.clone(), frames_file(out), run_file(out)].into_iter().chain(page).collect();
+    print_summary(&Finished { ran: &work.ran, files: &files, work_dir: &options.work_dir }, format);
+    if let Some((folder, written)) = work.marks {
+        print_marks(written, folder, format);
+    }
+    if let Some(annotated) = &work.annotated {
+        print_annotated(annotated, format);
+    }
+    if let Some(dir) = &args.expect {
+        compare(dir, &results, args.tolerance)?;
+    }
+    if work.ran.sessions.iter().all(|session| session.failed) {
+        return Err(Failure::Failed(anyhow!("no session could be used")));
+    }
+    Ok(outcome(lost_pictures || work.has_losses()))
+}
+
+/// The work of a run: its results are written, and so are the marks and recordings that were asked for.
+struct Work<'a> {
+    ran: Ran,
+    /// The folder of the marks of found rims, and the number of their files.
+    marks: Option<(&'a Path, MarksWritten)>,
+    annotated: Option<Annotated>,
+}
+
+impl Work<'_> {
+    fn has_losses(&self) -> bool {
+        let lacks_annotated = self.annotated.as_ref().is_some_and(|annotated| !annotated.failed.is_empty());
+        lacks_annotated || self.ran.sessions.iter().any(SessionStatus::has_losses)
+    }
+}
+
+/// Runs the study, and writes its results, and then the recordings for viewers and the marks of found rims where they are asked
+/// for. The marks are written even where a signal stopped the recordings.
+fn work<'a>(args: &'a RunArgs, study: &Study, options: &RunOptions, bars: &Bars) -> Result<Work<'a>, Failure> {
+    let out = &args.place.out;
+    let sink = ParquetSink::create(out, &frames_file(out));
+    let mut sink = sink.map_err(|error| with_holder(error, &options.work_dir))?;
     let progress = bars.for_run();
-    let ran = pipeline::run(&study, &options, &progress, &mut sink).map_err(failure)?;
+    let ran = pipeline::run(study, options, &progress, &mut sink).map_err(failure)?;
     drop(sink);
-    let annotated = args.annotate.then(|| pipeline::annotate(&study, &options, &progress)).transpose();
+    let annotated = args.annotate.then(|| pipeline::annotate(study, options, &progress)).transpose();
     drop(progress);
     let marks = args.write_marks.as_deref();
-    let marks = marks.map(|folder| Ok((folder, pipeline::write_marks(&study, &options.work_dir, PROGRAM, folder)?)));
+    let marks = marks.map(|folder| Ok((folder, pipeline::write_marks(study, &options.work_dir, PROGRAM, folder)?)));
     let marks = marks.transpose().map_err(|error: WriteMarksError| Failure::Failed(error.into()))?;
-
     let annotated = annotated.map_err(|halted| failure(halted.into()))?;
+    Ok(Work { ran, marks, annotated })
+}
 
-    let mut results = Results::read(out)?;
-    results.read_flow(&frames)?;
-    print(&tables_text(&results))?;
-    let source = || page::Source {
+/// The files that the report is made from, with the limits of the run.
+fn source<'a>(out: &'a Path, options: &'a RunOptions) -> page::Source<'a> {
+    page::Source {
         out,
         work_dir: &options.work_dir,
         jobs: options.jobs,
         image_memory_bytes: options.image_memory_bytes,
         stop: options.stop.clone(),
-    };
-    let report = args.report.as_ref().map(|dir| page::write(&results, source(), dir, bars)).transpose()?;
-    let (page, shown) = report.map_or((None, true), |report| (Some(report.page), !report.lost));
-    let files = [out.clone(), frames, ::report::run_file(out)];
-    let files: Vec<PathBuf> = files.into_iter().chain(page).collect();
-    print_summary(&Finished { ran: &ran, files: &files, work_dir: &options.work_dir }, format);
-    if let Some((folder, written)) = marks {
-        print_marks(written, folder, format);
     }
-    if let Some(annotated) = &annotated {
-        print_annotated(annotated, format);
+}
+
+/// Compares the tables with the expected ones in `dir`, and writes the comparison to stderr. Fails where they differ, or where
+/// the expected ones cannot be used.
+fn compare(dir: &Path, results: &Results, tolerance_pct: f64) -> Result<(), Failure> {
+    let comparison = ::report::compare(dir, results, tolerance_pct).map_err(Failure::usage)?;
+    print_message(&format!("{comparison}\n"));
+    if comparison.is_ok() {
+        return Ok(());
     }
-    if let Some(dir) = &args.expect {
-        let comparison = ::report::compare(dir, &results, args.tolerance).map_err(Failure::usage)?;
-        print_message(&format!("{comparison}\n"));
-        if !comparison.is_ok() {
-            return Err(Failure::Failed(anyhow!("the tables differ from those in {}", dir.display())));
-        }
-    }
-    if ran.sessions.iter().all(|session| session.failed) {
-        return Err(Failure::Failed(anyhow!("no session could be used")));
-    }
-    let lost = annotated.is_some_and(|annotated| !annotated.failed.is_empty());
-    Ok(outcome(lost || !shown || ran.sessions.iter().any(SessionStatus::has_losses)))
+    Err(Failure::Failed(anyhow!("the tables differ from those in {}", dir.display())))
 }
 
 fn options(args: &RunArgs) -> Result<RunOptions, Failure> {
@@ -93,40 +125,8 @@ fn options(args: &RunArgs) -> Result<RunOptions, Failure> {
     })
 }
 
-/// How many files of marks there are now, and how many somebody has changed.
-fn print_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
-    let MarksWritten { files, left } = written;
-    let place = folder.join("auto");
-    if format == LogFormat::Json {
-        tracing::info!(files, left, "marks of rims that were found, in {}", place.display());
-        return;
-    }
-    print_message(&format!("marks of rims that were found: {files} files for LabelMe in {}\n", place.display()));
-    if left > 0 {
-        print_message(&format!(
-            "{left} more differ from what would be written, and were left as they are\n  -> remove those that are to be written anew\n"
-        ));
-    }
-}
-
-/// How many recordings are there for viewers, and which are not.
-fn print_annotated(annotated: &Annotated, format: LogFormat) {
-    let Annotated { folder, made, kept, failed } = annotated;
-    if format == LogFormat::Json {
-        for NotAnnotated { session, fact } in failed {
-            tracing::warn!(session, "no annotated recording: {fact}");
-        }
-        tracing::info!(made, kept, failed = failed.len(), "annotated recordings, in {}", folder.display());
-        return;
-    }
-    print_message(&format!("annotated recordings: {made} written, {kept} unchanged in {}\n", folder.display()));
-    for NotAnnotated { session, fact } in failed {
-        print_message(&format!("session '{session}' has none: {fact}\n"));
-    }
-}
-
-/// Who writes the same files, if it is a run in the same work folder.
-fn named(error: SinkError, work_dir: &Path) -> Failure {
+/// The failure of the output's files; where another run in the same work folder is writing them, it names that run.
+fn with_holder(error: SinkError, work_dir: &Path) -> Failure {
     match (&error, Holder::current(work_dir)) {
         (SinkError::File(FileError::Busy { .. }), Some(Holder(holder))) => {
             Failure::Failed(anyhow!(error).context(format!("another run is at work on this output: {holder}")))
@@ -142,7 +142,7 @@ fn failure(error: RunError<SinkError>) -> Failure {
     }
 }
 
-/// What would otherwise fail at the end of a night.
+/// Refuses arguments that would otherwise fail only at the end of a night.
 fn check(args: &RunArgs) -> Result<(), Failure> {
     let refuse = |fact: String| Err(Failure::Usage(anyhow!(fact)));
     place::check_name(&args.place.out)?;

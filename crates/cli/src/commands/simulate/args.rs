@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
-/// `simulate`.
+/// The arguments of `simulate`.
 #[derive(Debug, clap::Args)]
 pub struct SimulateArgs {
-    /// What to make: published-bench, large, bench, worn, or a scene file NAME.toml (docs/simulate.md)
+    /// Study to make: published-bench, large, bench, worn, or a scene file NAME.toml (docs/simulate.md)
     #[arg(value_name = "PRESET|SCENE.toml", value_parser = parse_study_to_make)]
     pub study: StudyToMake,
     /// Folder of the new study; must be empty or not exist
@@ -19,7 +19,7 @@ pub struct SimulateArgs {
     /// Everything but the pictures (published-bench)
     #[arg(long)]
     pub no_pictures: bool,
-    /// How large it is
+    /// How large the study is
     #[command(flatten)]
     pub large: LargeArgs,
 }
@@ -42,7 +42,7 @@ pub struct LargeArgs {
     pub damage: Option<f64>,
 }
 
-/// `320x240`.
+/// Width and height in pixels of a text such as `320x240`.
 fn parse_size_px(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.parse::<u32>().ok();
     let size = text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
@@ -52,13 +52,13 @@ fn parse_size_px(text: &str) -> Result<[u32; 2], String> {
 /// A study that `simulate` can make.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum StudyToMake {
-    /// A study of the program's own.
+    /// One of the program's own studies.
     Preset(Preset),
-    /// What a scene file says.
+    /// The study that this scene file describes.
     Scene(PathBuf),
 }
 
-/// `worn`, `kitchen.toml`.
+/// The study of a text such as `worn` or `kitchen.toml`. Fails where the text is neither a preset nor ends in `.toml`.
 fn parse_study_to_make(text: &str) -> Result<StudyToMake, String> {
     if Path::new(text).extension().is_some_and(|extension| extension == "toml") {
         return Ok(StudyToMake::Scene(PathBuf::from(text)));
@@ -71,7 +71,7 @@ fn parse_study_to_make(text: &str) -> Result<StudyToMake, String> {
     })
 }
 
-/// Studies that can be made.
+/// The studies that the program can make without a scene file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Preset {
     /// The paper's bench and worn sessions, rebuilt from the published readings

@@ -1,4 +1,4 @@
-//! `simulate`: a study with known truth.
+//! `simulate`: makes a study with known truth.
 
 mod args;
 
@@ -18,7 +18,7 @@ use super::{PROGRAM, print_message};
 use crate::exit::{Failure, Outcome};
 use crate::progress::Bars;
 
-/// Makes the study.
+/// Makes the study, writes its truth beside it, and reports how large it is.
 pub fn run(args: &SimulateArgs, bars: &Bars) -> Result<Outcome, Failure> {
     let seed = args.seed.unwrap_or(1);
     let (Simulated { summary, truth }, made_from) = match &args.study {
@@ -50,7 +50,7 @@ pub fn run(args: &SimulateArgs, bars: &Bars) -> Result<Outcome, Failure> {
     Ok(Outcome::Well)
 }
 
-/// Nothing is true of it but what was published.
+/// Makes the paper's bench. Its truth is in its objects.csv, as it was published; it has no truth.parquet.
 fn make_published_bench(args: &SimulateArgs, seed: u64, bars: &Bars) -> Result<Simulated, Failure> {
     if args.large != LargeArgs::default() {
         let fact =
@@ -101,7 +101,7 @@ fn make_laid(args: &SimulateArgs, seed: u64, preset: LaidPreset, bars: &Bars) ->
     laid::write(&args.out, &options, &bars.counter("pictures")).map_err(failure)
 }
 
-/// The study, and the seed that it was made with.
+/// Makes the study of a scene file, and returns it with the seed that it was made with.
 fn make_scene(file: &Path, args: &SimulateArgs, bars: &Bars) -> Result<(Simulated, u64), Failure> {
     refuse_no_pictures(args)?;
     if args.large != LargeArgs::default() {

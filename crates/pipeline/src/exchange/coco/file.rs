@@ -13,7 +13,7 @@ pub(super) struct CocoFile {
     pub images: Option<Vec<CocoImage>>,
     pub annotations: Option<Vec<CocoAnnotation>>,
     pub categories: Option<Vec<Category>>,
-    /// Of a LabelMe file.
+    /// The key of a LabelMe file.
     pub shapes: Option<IgnoredAny>,
 }
 
@@ -138,7 +138,7 @@ pub(super) enum Value {
 }
 
 impl Attributes {
-    /// Those that are texts.
+    /// The attributes that are texts, or can be written as such.
     pub fn into_text(self) -> BTreeMap<String, String> {
         let Self::Map(map) = self else { return BTreeMap::new() };
         let text = |(key, value): (String, Value)| match value {

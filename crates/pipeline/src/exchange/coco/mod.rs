@@ -9,7 +9,7 @@ use super::ExchangeError;
 use super::foreign::{Annotation, Drawn, Foreign, ForeignImage, Form, NamedPoint, Refused, Sight, short};
 use file::{Category, CocoAnnotation, CocoFile, Id, Numbers, Segmentation};
 
-/// Reads a file. `path` is for messages.
+/// The content of a file. `path` is for messages.
 ///
 /// # Errors
 /// [`ExchangeError::Coco`] where it is not COCO's JSON, [`ExchangeError::LabelMe`] where it is LabelMe's.
@@ -60,7 +60,7 @@ fn by_id(categories: Vec<Category>, path: &Path) -> Result<BTreeMap<Id, Category
     Ok(by_id)
 }
 
-/// What refers to an id that stands there twice cannot be told apart.
+/// The error of an id that stands there twice: what refers to it cannot be told apart.
 fn twice(what: &str, id: &Id, path: &Path) -> ExchangeError {
     let source = serde::de::Error::custom(format!("{what} id {id} stands there twice"));
     ExchangeError::Coco { path: path.to_owned(), source }
@@ -76,7 +76,7 @@ fn annotation_of(annotation: CocoAnnotation, place: String, categories: &BTreeMa
     Annotation { place, label: category.map(|category| category.name.clone()).unwrap_or_default(), attributes, drawn }
 }
 
-/// Keypoints come first: a segmentation beside them is the object's outline, and no mark.
+/// The drawing of an annotation. Keypoints come first: a segmentation beside them is the object's outline, and no mark.
 fn drawing(annotation: &CocoAnnotation, category: &Category) -> Result<Drawn, String> {
     if let Some(keypoints) = annotation.keypoints.as_ref().filter(|keypoints| !keypoints.is_empty()) {
         let points = named(keypoints, category)?;
@@ -99,7 +99,7 @@ fn drawing(annotation: &CocoAnnotation, category: &Category) -> Result<Drawn, St
     }
 }
 
-/// The parts of what something hides in places belong to one outline.
+/// The outline of several polygons: parts of what something hides in places belong to one outline.
 fn polygons(parts: &[Vec<f64>]) -> Result<Drawn, String> {
     if let Some(part) = parts.iter().find(|part| part.len() < 6 || part.len() % 2 != 0) {
         let fact = "expected polygons of 3 points and more, as x,y,x,y,x,y; got a part with";

@@ -13,7 +13,7 @@ use xml::{Element, Reader};
 
 const EXPORT: &str = "export the task from CVAT as 'CVAT for images 1.1'";
 
-/// Reads a file. `path` is for messages.
+/// The content of a file. `path` is for messages.
 ///
 /// # Errors
 /// [`ExchangeError`] where the file is not XML, or is not CVAT's for images.

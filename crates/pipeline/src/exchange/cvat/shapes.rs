@@ -1,4 +1,4 @@
-//! What CVAT draws.
+//! The shapes that CVAT draws.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::exchange::foreign::{Annotation, Drawn, Ellipse, Form, NamedPoint, Sig
 
 type Attributes = BTreeMap<String, String>;
 
-/// A shape of an image, to its end.
+/// Reads a shape of an image, to its end.
 pub(super) fn annotation(reader: &mut Reader<'_>, start: &Start<'_>) -> Result<Annotation, ExchangeError> {
     let mut own = start.attributes(reader)?;
     let drawn = if is_set(&own, "outside") {
@@ -82,7 +82,7 @@ fn is_set(own: &Attributes, key: &str) -> bool {
     own.get(key).is_some_and(|value| value != "0")
 }
 
-/// A point of a skeleton.
+/// Reads a point of a skeleton.
 fn element(name: &str, mut own: Attributes) -> Result<NamedPoint, String> {
     let label = own.remove("label").unwrap_or_default();
     let sight = match (is_set(&own, "outside"), is_set(&own, "occluded")) {
@@ -99,7 +99,7 @@ fn element(name: &str, mut own: Attributes) -> Result<NamedPoint, String> {
     }
 }
 
-/// `x,y;x,y;...`
+/// The points of a text `x,y;x,y;...`.
 fn points(own: &Attributes) -> Result<Vec<[f64; 2]>, String> {
     let text = own.get("points").ok_or("expected points=\"x,y;x,y;...\", got none")?;
     let point = |pair: &str| {

@@ -22,12 +22,12 @@ pub(super) struct Start<'a> {
     line: usize,
 }
 
-/// Reads piece by piece. No entities but those of XML itself are known.
+/// Reads a document piece by piece. No entities but those of XML itself are known.
 pub(super) struct Reader<'a> {
     xml: quick_xml::Reader<&'a [u8]>,
     text: &'a str,
     path: &'a Path,
-    /// Line breaks are counted up to this byte.
+    /// Line breaks have been counted up to this byte.
     counted: usize,
     line: usize,
 }
@@ -93,7 +93,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Nothing but white space may follow.
+    /// Checks that nothing but white space follows.
     pub fn expect_end(&mut self) -> Result<(), ExchangeError> {
         while let Some(element) = self.next()? {
             if !matches!(&element, Element::Text(text) if text.trim().is_empty()) {
@@ -104,7 +104,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// The document is XML, but not CVAT's.
+    /// The error that the document is XML, but not CVAT's.
     pub fn not_cvat(&mut self, fact: String) -> ExchangeError {
         ExchangeError::NotCvat { path: self.path.to_owned(), line: self.line_now(), fact }
     }
@@ -145,7 +145,7 @@ impl Start<'_> {
         format!("line {}", self.line)
     }
 
-    /// Its attributes by name; one that stands there twice is an error.
+    /// The attributes of an element by name; one that stands there twice is an error.
     pub fn attributes(&self, reader: &Reader<'_>) -> Result<BTreeMap<String, String>, ExchangeError> {
         let refuse = |fact: String| reader.malformed(self.line, fact);
         let mut attributes = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! COCO's JSON.
+//! Writes COCO's JSON.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -112,13 +112,13 @@ fn annotation(id: usize, image_id: usize, category_id: usize, mark: &Labelled) -
     }
 }
 
-/// The shoelace formula.
+/// The area of a polygon, by the shoelace formula.
 fn area_px2(points: &[[f64; 2]]) -> f64 {
     let next = points.iter().cycle().skip(1);
     0.5 * points.iter().zip(next).map(|([ax, ay], [bx, by])| ax * by - bx * ay).sum::<f64>().abs()
 }
 
-/// x, y, width, height.
+/// The bounding box: x, y, width, height.
 fn bounding_box(points: &[[f64; 2]]) -> [f64; 4] {
     let over =
         |axis: fn(&[f64; 2]) -> f64, fold: fn(f64, f64) -> f64| points.iter().map(axis).reduce(fold).unwrap_or(0.0);

@@ -1,4 +1,4 @@
-//! CVAT's XML, 'CVAT for images 1.1'.
+//! Writes CVAT's XML, 'CVAT for images 1.1'.
 
 use std::io;
 

@@ -1,4 +1,4 @@
-//! The marks of one rater as one file for another tool.
+//! Exports the marks of one rater as one file for another tool.
 
 mod coco;
 mod cvat;
@@ -25,33 +25,33 @@ pub enum Format {
     Cvat,
 }
 
-/// What is written where.
+/// Settings of an export.
 #[derive(Debug, Clone)]
 pub struct ExportOptions {
-    /// Whose marks.
+    /// The rater whose marks are written.
     pub rater: String,
-    /// In which form.
+    /// The format of the file.
     pub format: Format,
     /// The file to write; one that is there is written over.
     pub out: PathBuf,
-    /// Program and version, for the file.
+    /// The program and its version, for the file.
     pub program: String,
 }
 
-/// What was written, and what was not.
+/// The result of an export.
 #[derive(Debug, Default, PartialEq)]
 pub struct Exported {
-    /// Images that are marked.
+    /// The number of images that are marked.
     pub images: usize,
-    /// Their marks.
+    /// The number of their marks.
     pub marks: usize,
-    /// Files and shapes that were left out.
+    /// The files and shapes that were left out.
     pub refused: Vec<Refused>,
 }
 
 /// An image with its marks.
 struct MarkedImage {
-    /// `SESSION/FILE`, as below cards/.
+    /// The name `SESSION/FILE`, as below cards/.
     name: String,
     size_px: [u32; 2],
     marks: Vec<Labelled>,
@@ -70,7 +70,8 @@ impl Labelled {
     }
 }
 
-/// Writes the marks of a rater in `study` into one file. What cannot be written is told, and the rest is written.
+/// Writes the marks of a rater in `study` into one file. What cannot be written is listed in the result, and the rest is
+/// written.
 ///
 /// # Errors
 /// [`ExchangeError`] where there are no marks, or the file cannot be written.
@@ -143,7 +144,7 @@ fn images_of(
     images
 }
 
-/// Marks with their labels; outlines that no tool takes for one are told.
+/// The marks with their labels, and messages on outlines that no tool takes for one.
 fn labelled(objects: Vec<ObjectMarks>) -> (Vec<Labelled>, Vec<String>) {
     let (mut labelled, mut too_few) = (Vec::new(), Vec::new());
     for ObjectMarks { object, marks } in objects {

@@ -1,31 +1,33 @@
-//! What a container is, by all images that show it: plate or bowl, and how high its rim is.
+//! The appearance of a container in all images that show it: plate or bowl, and the height of its rim.
 //!
-//! One image often cannot tell: the foot is hidden, food covers the well, a shadow looks like a wall. A container is one thing
-//! in all its images, so that all of them have a say, and its sizes in all of them are measured on one plane.
+//! One image often cannot tell: the foot is hidden, food covers the well, a shadow looks like a wall. But a container is one
+//! thing in all of its images, so all of them have a say, and its sizes are measured on one plane in all of them.
 
 use model::Kind;
 
-use crate::rims::{HeightSource, RimHeight};
+use rims::{HeightSource, RimHeight};
 
-/// What an image, or several, tell of a container.
+/// The evidence of one image, or of several, on what a container is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Appearance {
-    /// Height of the rim if it is a plate's.
+    /// The height of the rim if it is a plate's.
     pub plate: RimHeight,
-    /// Height of the rim if it is a bowl's.
+    /// The height of the rim if it is a bowl's.
     pub bowl: RimHeight,
-    /// Natural logarithm of the odds of a plate against a bowl.
+    /// The natural logarithm of the odds of a plate against a bowl.
     pub plate_log_odds: f64,
 }
 
-/// No image counts for more than this, a factor of e^10 = 22,000: what it takes for a foot may be a shadow, however sharp.
+/// No image counts for more than this, a factor of e^10 = 22,000: an edge that is taken for a foot may be a shadow, however
+/// sharp it is.
 const MOST_LOG_ODDS: f64 = 10.0;
-/// Share of the variance of a height that its images have in common: the container's own form, its food, what is common among
-/// containers. Of rims in simulated sessions (`worn`, seeds 101 to 103, 38 containers) it was 0.78 for bowls, 0.72 for plates.
+/// The share of the variance of a height that the images of a container have in common: its own form, its food, what is
+/// common among containers. Among the rims of simulated sessions (`worn`, seeds 101 to 103, 38 containers) it was 0.78 for
+/// bowls and 0.72 for plates.
 const SHARED: f64 = 0.75;
 
 impl Appearance {
-    /// What it is taken for.
+    /// The likelier kind.
     pub fn kind(&self) -> Kind {
         if self.plate_log_odds >= 0.0 { Kind::Plate } else { Kind::Bowl }
     }
@@ -61,8 +63,8 @@ impl PooledAppearance {
 
     /// The appearance by all images; none where there is no image.
     ///
-    /// Images of one container mostly err alike, and differ a little: the evidence of n of them counts as that of √n, between
-    /// one (all err alike) and n (none do).
+    /// Images of one container mostly err alike, and differ a little. The evidence of n of them therefore counts as that of
+    /// √n, between one (all err alike) and n (none do).
     pub fn appearance(&self) -> Option<Appearance> {
         Some(Appearance {
             plate: self.plate.mean()?,
@@ -76,20 +78,20 @@ fn limited(log_odds: f64) -> f64 {
     if log_odds.is_nan() { 0.0 } else { log_odds.clamp(-MOST_LOG_ODDS, MOST_LOG_ODDS) }
 }
 
-/// Heights weighted by their inverse variances w: sums over the images.
+/// Sums over images of heights, weighted by their inverse variances w.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Heights {
     weight: f64,
     weighted_mm: f64,
-    /// Sum of w σ, the square root of w.
+    /// The sum of w σ, that is, of the square roots of w.
     weighted_sigma: f64,
-    /// Weight by the source of the height, in the order of [`SOURCES`].
+    /// The sum of w by the source of the height, in the order of [`SOURCES`].
     by_source: [f64; SOURCES.len()],
 }
 
-/// Where heights come from, the surest first.
+/// The sources of heights, the surest first.
 const SOURCES: [HeightSource; 4] = [HeightSource::Given, HeightSource::Foot, HeightSource::Floor, HeightSource::Common];
-/// Nothing is known better than this, in mm.
+/// No height is known better than this.
 const LEAST_SIGMA_MM: f64 = 1e-3;
 
 impl Heights {
@@ -112,8 +114,8 @@ impl Heights {
         }
     }
 
-    /// With weights W = w / Σw the part that images have of their own gives Σ W² σ² = 1 / Σw, the part that they share
-    /// (Σ W σ)² = (Σ √w / Σw)².
+    /// The weighted mean. With weights W = w / Σw the part of the variance that images have of their own is Σ W² σ² = 1 /
+    /// Σw, and the part that they share (Σ W σ)² = (Σ √w / Σw)².
     fn mean(&self) -> Option<RimHeight> {
         let own = self.weight.recip();
         let shared = (self.weighted_sigma / self.weight).powi(2);

@@ -1,33 +1,33 @@
-//! Which rims of a session are one container.
+//! Decides which rims of a session belong to one container.
 //!
-//! The camera sees where a rim is from itself. Where the wearer is, and which way he faces, nobody knows, so the place on the
-//! table is comparable only between images near in time, and roughly. Two containers of one size that are never in one
-//! image together cannot be told apart. Of two that are, a link that is not clear is not made: a container then has two names
-//! rather than two containers one.
+//! The camera sees where a rim lies relative to itself. Where the wearer is, and which way he faces, is not known, so places
+//! on the table are comparable only between images near in time, and roughly. Two containers of one size that are never in
+//! one image together cannot be told apart. Where they are, a link that is not clear is not made: it is better that one
+//! container has two names than that two containers share one.
 
 use std::collections::BTreeSet;
 
 use super::track::{Sighting, Track};
 
-/// Diameters that differ by more than this many of their joint standard uncertainties are two containers'.
+/// Diameters that differ by more than this many of their joint standard uncertainties belong to two containers.
 const SAME_SIZE: f64 = 2.0;
-/// The same where place and time say that it is the same thing.
+/// The same limit where place and time say that it is one thing.
 const SAME_PLACE_SIZE: f64 = 3.0;
-/// Within this time a head stays about where it is.
+/// Within this time a head stays in about the same place.
 const NEAR_S: f64 = 30.0;
-/// Standard deviation of a container's place between two such images, from turning and leaning.
+/// The standard deviation of a container's place between two such images, from turning and leaning.
 const PLACE_MM: f64 = 100.0;
-/// A turn about the vertical keeps the distance; leaning changes it by less than this between such images.
+/// A turn about the vertical keeps the distance; leaning changes it by less than this between two such images.
 const LEAN_MM: f64 = 250.0;
-/// Places are the same within this, in squared standard deviations.
+/// Places closer than this are the same, in squared standard deviations.
 const SAME_PLACE: f64 = 2.25;
-/// Squared standard deviations that stand for a place that tells nothing.
+/// The squared standard deviations that stand for a place that says nothing.
 const NO_PLACE: f64 = 9.0;
-/// A link is clear when no other is within this of it, in squared standard deviations.
+/// A link is clear when no other one comes within this of it, in squared standard deviations.
 const CLEAR: f64 = 4.0;
 
-/// The containers, in the order in which they are first seen. `seen` is in the order of time; sightings in one image are of
-/// as many containers.
+/// The containers, in the order in which they are first seen. `seen` must be in the order of time; sightings in one image
+/// are of as many containers.
 pub(super) fn containers(seen: &[Sighting]) -> Vec<Track> {
     let mut tracks: Vec<Track> = Vec::new();
     let mut first = 0;
@@ -43,7 +43,7 @@ pub(super) fn containers(seen: &[Sighting]) -> Vec<Track> {
     joined(tracks, seen)
 }
 
-/// The track of every sighting of one image, where that is clear. The cheapest link is made first.
+/// The number of the track that each sighting of one image belongs to, where that is clear. The cheapest link is made first.
 fn links(image: &[Sighting], tracks: &[Track], seen: &[Sighting]) -> Vec<Option<usize>> {
     let mut costs: Vec<(f64, usize, usize)> = Vec::new();
     for (i, sighting) in image.iter().enumerate() {
@@ -62,7 +62,8 @@ fn links(image: &[Sighting], tracks: &[Track], seen: &[Sighting]) -> Vec<Option<
         if links[i].is_some() || used.contains(&t) {
             continue;
         }
-        // Another track for this rim (two that were never seen together may be one), or another rim for this track.
+        // The rival is another track for this rim (two tracks that were never seen together may be one), or another rim for
+        // this track.
         let rival = costs.iter().take_while(|(cost, ..)| *cost < least + CLEAR).any(|&(_, other_i, other_t)| {
             let is_other = if other_i == i { are_two(&tracks[t], &tracks[other_t]) } else { other_t == t };
             is_other && links[other_i].is_none() && !used.contains(&other_t)
@@ -75,12 +76,13 @@ fn links(image: &[Sighting], tracks: &[Track], seen: &[Sighting]) -> Vec<Option<
     links
 }
 
-/// Tracks that are in one image together are two containers for sure.
+/// Whether two tracks are two containers for sure, because one image shows both.
 fn are_two(a: &Track, b: &Track) -> bool {
     a.members.first() != b.members.first() && !a.images.is_disjoint(&b.images)
 }
 
-/// How unlikely it is by their places that two sightings are one container's; none when they are not.
+/// How unlikely it is, by their places, that two sightings are of one container (squared standard deviations); none where
+/// they cannot be.
 fn far(a: &Sighting, b: &Sighting) -> Option<f64> {
     if a.time.seconds_since(b.time).abs() > NEAR_S {
         return Some(NO_PLACE);
@@ -90,8 +92,8 @@ fn far(a: &Sighting, b: &Sighting) -> Option<f64> {
     ((ax.hypot(ay) - bx.hypot(by)).abs() <= LEAN_MM).then_some(far)
 }
 
-/// Tracks that turn out to be of one container, once all of their images are known, become one: those that were begun since
-/// one image showed it with an odd size, or since it was not clear then. The likeliest pair comes first.
+/// The tracks after those have been joined that turn out to be of one container once all images are known: a second track
+/// begins where one image showed an odd size, or where a link was not clear then. The likeliest pair is joined first.
 fn joined(mut tracks: Vec<Track>, seen: &[Sighting]) -> Vec<Track> {
     while tracks.len() <= MOST_TO_JOIN {
         let pairs = Pairs::between(&tracks);
@@ -105,14 +107,15 @@ fn joined(mut tracks: Vec<Track>, seen: &[Sighting]) -> Vec<Track> {
     tracks
 }
 
-/// No table has so many containers: what was found is something else, and every pair would be compared with every track.
+/// No table has so many containers. With more tracks the rims must be of something else, and comparing every pair with every
+/// track would take too long.
 const MOST_TO_JOIN: usize = 200;
 
-/// How unlikely any two tracks are to be one, and which are two for sure.
+/// For any two tracks, how unlikely they are to be one, and whether they are two for sure.
 struct Pairs {
     unlike: Vec<Vec<Option<f64>>>,
     are_two: Vec<Vec<bool>>,
-    /// The first before the second, the likeliest pair first.
+    /// Pairs with the number of the first below that of the second, the likeliest pair first.
     by_cost: Vec<(f64, usize, usize)>,
 }
 
@@ -129,7 +132,8 @@ impl Pairs {
         pairs
     }
 
-    /// Whether no third track is about as likely to be one with either of a pair, and another than the other for sure.
+    /// Whether the pair is clear: no third track is about as likely to be one with either of the two while it is another
+    /// than the other for sure.
     fn is_clear(&self, least: f64, a: usize, b: usize) -> bool {
         let is_rival = |third: usize, mine: usize, other: usize| {
             let is_near = self.unlike[third][mine].is_some_and(|cost| cost < least + CLEAR);
@@ -140,7 +144,7 @@ impl Pairs {
     }
 }
 
-/// Whether the container would have moved, between two images near in time, as no head makes it seem to.
+/// Whether the container would have had to move, between two images near in time, further than a head can make it seem to.
 fn is_leap(a: &Track, b: &Track, seen: &[Sighting]) -> bool {
     let mut begin = 0;
     for one in a.members.iter().filter_map(|&number| seen.get(number)) {

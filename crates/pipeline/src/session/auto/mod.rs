@@ -1,4 +1,4 @@
-//! Rims found in the selected images of a session, named so that one container has one name.
+//! Finds rims in the selected images of a session, and names them so that one container has one name.
 
 mod appearance;
 mod link;
@@ -10,7 +10,8 @@ use std::path::Path;
 
 use ingest::{ByteBudget, Picture, SessionReader};
 use model::{
-    Camera, Container, Estimate, FrameReason, Method, Problem, Quantity, Severity, Shape, SizeSigma, Stage, View,
+    Camera, Container, Estimate, FrameReason, Method, Problem, ProblemCode, Quantity, Severity, Shape, SizeSigma,
+    Stage, View,
 };
 use nalgebra::Point2;
 
@@ -19,33 +20,33 @@ use super::prepared::Prepared;
 use super::recording::{Recording, bad_mcap};
 use crate::calibration::corrected_view;
 use crate::labelme::{self, AutoRim};
-use crate::rims::{self, Found, Rim, find_rims_of};
 use crate::stop::Stop;
 use crate::study::{AUTO, SessionDir, Study, marks_in, number_of_found, stem_of};
 use appearance::Appearance;
 use named::{Seen, name_containers};
+use rims::{self, Found, Rim, find_rims_of};
 use track::Sighting;
 
-/// What a search gave.
+/// The result of a search.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct AutoMarks {
-    /// Rims by image (file on the card), the likeliest first.
+    /// The rims by image (file on the card), the likeliest first.
     pub by_image: BTreeMap<String, Vec<AutoRim>>,
-    /// Pictures that could not be searched.
+    /// The pictures that could not be searched.
     pub problems: Vec<Problem>,
     /// Whether rims were looked for at all.
     pub searched: bool,
 }
 
-/// Why a search ended before its end.
+/// The reason why a search did not come to its end.
 pub(crate) enum SearchError {
-    /// Somebody wished so.
+    /// A wish to stop came.
     Stopped,
-    /// The recording.
+    /// The recording could not be read.
     Recording(Box<Problem>),
 }
 
-/// What a search works with.
+/// The inputs of a search.
 pub(crate) struct Search<'a> {
     pub study: &'a Study,
     pub dir: &'a SessionDir,
@@ -56,8 +57,8 @@ pub(crate) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Looks for rims in the selected images, one picture at a time; in the order of time, so that nothing depends on who is
-    /// at work beside it. Images for which rater `auto` has a file are left out where files are read.
+    /// Looks for rims in the selected images, one picture at a time in the order of time, so that nothing depends on what
+    /// runs beside it. Where files of marks are read, images for which rater `auto` has a file are left out.
     pub fn run(&self, recording: &Recording) -> Result<AutoMarks, SearchError> {
         let source = self.study.spec.marks.source;
         let mut auto = AutoMarks::default();
@@ -89,13 +90,13 @@ impl Search<'_> {
         Ok(auto)
     }
 
-    /// Names of images that rater `auto` has files for, and numbers that objects have there.
+    /// The names of the images for which rater `auto` has files, and the numbers of the objects in those files.
     fn checked(&self) -> (BTreeSet<String>, BTreeSet<u32>) {
         let files = self.dir.marks.get(AUTO).and_then(|dir| marks_in(dir).ok()).unwrap_or_default();
         let picture_px = self.prepared.marks_camera.1.size_px();
         let mut taken = BTreeSet::new();
         for file in &files {
-            // What is wrong with a file is told where its marks are read.
+            // A file that cannot be used becomes a problem where its marks are read.
             let marks = labelme::read_bytes(file).and_then(|bytes| labelme::parse(&bytes, file, picture_px));
             let objects = marks.map(|marks| marks.objects).unwrap_or_default();
             taken.extend(objects.iter().filter_map(|marks| number_of_found(&marks.object)));
@@ -115,7 +116,7 @@ impl Search<'_> {
         Ok(sure.filter_map(|rim| self.seen_rim(number, frame, &view, rim)).collect())
     }
 
-    /// None of a rim that has no size, or that the marks camera would not show.
+    /// The rim with all that it is linked by; none where it has no size, or where the marks camera would not show it.
     fn seen_rim(&self, number: usize, frame: &Frame, view: &View, rim: &Rim) -> Option<Seen> {
         let (camera, marks_camera) = (&self.prepared.camera, &self.prepared.marks_camera.1);
         let points_px: Vec<[f64; 2]> =
@@ -133,7 +134,8 @@ impl Search<'_> {
         let camera_mm = view.pose().camera_height_mm();
         let own = rim.found().container();
         let height_mm = rim.height_as(&own).mm;
-        // As if its height were known: what its uncertainty does to the size is for all images of a container together.
+        // The height is taken as known here. What its uncertainty does to the size is considered for all images of a
+        // container together.
         let container = Container { rim_height_mm: Some(height_mm), ..own };
         let sizes = rim.sizes(view, Method::Ray, &container, &inputs_of(self.study, frame));
         let size = |wanted: Quantity| {
@@ -158,7 +160,7 @@ impl Search<'_> {
         Problem {
             severity: Severity::Loss,
             stage: Stage::Marks,
-            code: "picture_not_searched".to_owned(),
+            code: ProblemCode::PictureNotSearched,
             place: format!("cards/{}/{}", self.dir.name, frame.image.file),
             fact,
             remedy: "look at the picture; mark it by hand, or copy it from the card again".to_owned(),
@@ -166,25 +168,26 @@ impl Search<'_> {
     }
 }
 
-/// Uncertainty of a size against others of its session: a wrong angle or range makes all of them wrong alike, but for the part
-/// that differs between views: what stands in the range sensor's cone, above all.
+/// The standard uncertainty, in mm, of a size against others of its session. A wrong angle or range makes all of them wrong
+/// alike, apart from the part that differs between views: above all, what stands in the range sensor's cone.
 fn sigma_within_session_mm(sigma: &SizeSigma) -> f64 {
     let own = (sigma.total_mm.powi(2) - sigma.common_mm.powi(2)).max(0.0).sqrt();
     own.hypot(VIEWS_DIFFER * sigma.common_mm)
 }
 
-/// Part of the common uncertainty that is left between two views of the same thing: in simulated sessions (`worn`, seeds 101 to
-/// 103) sizes of one container scatter by 3.8 %, edges that are not the rim's outer one included, where 3.9 % are stated.
+/// The share of the common uncertainty that remains between two views of the same thing. In simulated sessions (`worn`,
+/// seeds 101 to 103) the sizes of one container scatter by 3.8 %, including edges that are not the rim's outer one, where
+/// 3.9 % are stated.
 const VIEWS_DIFFER: f64 = 0.75;
 
-/// Points of a rectangle.
+/// The number of points of a rectangle.
 const CORNERS: usize = 4;
 
-/// A decoded picture has three bytes per pixel; edges are found in a fourth.
+/// A decoded picture has three bytes per pixel; the search for edges needs a fourth.
 const BYTES_PER_PIXEL: u64 = 4;
 
-/// Where a point of the recorded picture is in the pictures that people mark, to a thousandth of a pixel: far below what an
-/// edge tells, and short in files.
+/// The point of the pictures that people mark that shows the same as a point of the recorded one, rounded to a thousandth of
+/// a pixel: far finer than any edge, and short in files.
 fn in_marked_picture(camera: &Camera, marks_camera: &Camera, point: Point2<f64>) -> Option<[f64; 2]> {
     let point =
         if camera == marks_camera { point } else { marks_camera.pixel_of(&camera.ray_through(point).ok()?).ok()? };

@@ -1,22 +1,23 @@
-//! One kind, one height and one name for each container.
+//! Gives each container one kind, one height and one name.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::link::containers;
 use super::track::Sighting;
 use crate::labelme::AutoRim;
-use crate::rims::{Found, as_judged};
 use crate::study::FOUND;
+use rims::{Found, as_judged};
 
-/// A rim with what it is linked by.
+/// A rim with the sighting by which it is linked to others.
 pub(super) struct Seen {
     pub image: String,
     pub rim: AutoRim,
     pub sighting: Sighting,
 }
 
-/// The rims by image, named: one container, one name, what it is by all of its images. Numbers go from 1 in the order in which
-/// containers are first seen; `taken` are left out, and so are containers narrower than `least_diameter_mm`.
+/// The rims by image, under the name of their container and with its kind and height by all of its images. Numbers go from 1
+/// in the order in which containers are first seen. Those in `taken` are not given, and containers narrower than
+/// `least_diameter_mm` are left out.
 pub(super) fn name_containers(
     seen: Vec<Seen>,
     taken: &BTreeSet<u32>,
@@ -53,8 +54,8 @@ mod tests {
     use model::{Kind, Shape, UtcNs};
 
     use super::*;
-    use crate::rims::{HeightSource, RimHeight};
     use crate::session::auto::appearance::Appearance;
+    use rims::{HeightSource, RimHeight};
 
     const LEAST_MM: f64 = 90.0;
 

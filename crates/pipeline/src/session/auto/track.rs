@@ -1,4 +1,4 @@
-//! A container as far as it has been seen, and how likely two of them are one.
+//! A container as far as it has been seen, and how likely it is that two of them are one.
 
 use std::collections::BTreeSet;
 
@@ -6,43 +6,45 @@ use model::{Kind, UtcNs};
 
 use super::appearance::{Appearance, PooledAppearance};
 
-/// A rim as far as it can be recognised.
+/// The properties of a rim by which it can be recognised.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sighting {
-    /// Number of its image in the session.
+    /// The number of its image in the session.
     pub image: usize,
     pub time: UtcNs,
-    /// Diameter, or length of a rectangle, that it has on the plane Z = 0; on the plane Z = h it is smaller by the factor 1 - h / camera_mm.
+    /// The diameter, or length of a rectangle, on the plane Z = 0. On the plane Z = h it is smaller by the factor 1 - h /
+    /// camera_mm.
     pub across_mm: f64,
-    /// Width of a rectangle over its length; none of a round one.
+    /// The width of a rectangle over its length; none for a round rim.
     pub narrowness: Option<f64>,
-    /// Its relative standard uncertainty against other images of the session.
+    /// The relative standard uncertainty of the diameter against other images of the session.
     pub relative_sigma: f64,
-    /// Height of the camera above the table.
+    /// The height of the camera above the table.
     pub camera_mm: f64,
-    /// Its centre on the plane Z = 0: world X, Y, from the point of the table under the camera.
+    /// The centre on the plane Z = 0: world X and Y, from the point of the table under the camera.
     pub at_mm: [f64; 2],
     pub appearance: Appearance,
 }
 
-/// What it costs that a container may as well be a plate as a bowl: -2 ln 1/2.
+/// The cost of leaving open whether a container is a plate or a bowl: -2 ln 1/2.
 const EITHER: f64 = 2.0 * std::f64::consts::LN_2;
-/// Share of the variance of a size that images of one container have in common: a track's mean has it, whatever its length.
+/// The share of the variance of a size that the images of one container have in common; the mean of a track keeps it,
+/// whatever the track's length.
 const ALIKE: f64 = 0.3;
-/// Smaller uncertainties are none.
+/// Smaller relative uncertainties count as this.
 const LEAST_SIGMA: f64 = 1e-6;
 
-/// A container that has been seen.
+/// A container that has been seen in one image or more.
 #[derive(Debug, Clone)]
 pub(super) struct Track {
-    /// Numbers of its sightings, in the order of time.
+    /// The numbers of its sightings, in the order of time.
     pub members: Vec<usize>,
-    /// Its images.
+    /// The numbers of its images.
     pub images: BTreeSet<usize>,
     pooled: PooledAppearance,
-    /// As the first one has it.
+    /// The narrowness of its first sighting.
     narrowness: Option<f64>,
-    /// Sums over its sightings, by weight: of weights, of diameters on Z = 0, and of those over the camera's height.
+    /// Sums over its sightings: of weights, of weighted diameters on Z = 0, and of those divided by the camera's height.
     weight: f64,
     across_mm: f64,
     across_per_camera: f64,
@@ -83,17 +85,17 @@ impl Track {
         self.across_per_camera += other.across_per_camera;
     }
 
-    /// What it is by all of its images.
+    /// The appearance by all of its images.
     pub fn appearance(&self) -> Option<Appearance> {
         self.pooled.appearance()
     }
 
-    /// Mean diameter if the rim is at this height.
+    /// The mean diameter if the rim is at this height.
     pub fn diameter_mm(&self, height_mm: f64) -> f64 {
         (self.across_mm - height_mm * self.across_per_camera) / self.weight
     }
 
-    /// Its shorter side if the rim is at this height.
+    /// The shorter side if the rim is at this height.
     pub fn narrowest_mm(&self, height_mm: f64) -> f64 {
         self.diameter_mm(height_mm) * self.narrowness.unwrap_or(1.0)
     }
@@ -107,19 +109,19 @@ impl Track {
         }
     }
 
-    /// Relative standard uncertainty of the mean diameter.
+    /// The relative standard uncertainty of the mean diameter.
     #[expect(clippy::cast_precision_loss, reason = "some thousand images")]
     fn relative_sigma(&self) -> f64 {
         let images = self.members.len() as f64;
         ((ALIKE + (1.0 - ALIKE) / images) * images / self.weight).sqrt()
     }
 
-    /// How unlikely it is by size that both are one container (squared standard deviations); none when they are not: when their
-    /// diameters differ by more than `most` of their joint standard uncertainties.
+    /// How unlikely it is, by their sizes, that both are one container (squared standard deviations). None where they cannot
+    /// be: where the diameters differ by more than `most` of their joint standard uncertainties.
     ///
-    /// One container has one height, so sizes are compared at the height that both give together: what is unknown of it
-    /// hardly matters then, since it makes both wrong alike. Whether it is a plate or a bowl is left open; what is unlikely by
-    /// the appearance of both costs as much as it is unlikely.
+    /// One container has one height, so sizes are compared at the height that both give together. An error of that height
+    /// hardly matters then, since it makes both wrong alike. Whether it is a plate or a bowl is left open; a kind that is
+    /// unlikely by the appearance of both costs as much as it is unlikely.
     pub fn unlike(&self, other: &Self, most: f64) -> Option<f64> {
         if !self.is_shaped_as(other, most) {
             return None;

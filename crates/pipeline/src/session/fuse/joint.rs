@@ -1,4 +1,5 @@
-//! Bowls seen in several images at different pitches: height and wall slope together, and the mouth on that plane.
+//! Method joint: bowls that are seen in several images at different pitches. Height and wall slope are solved together, and
+//! the mouth is measured on that plane.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +13,7 @@ use crate::session::marked::Marked;
 use crate::session::measurement::Measurement;
 use crate::session::row::error_pct;
 
-/// The rows of method joint: for every object and rater with height lines on two or more still images.
+/// The rows of method joint, for every object and rater with height lines on two or more still images.
 ///
 /// The images need different pitches, so those outside the target window count as well. Where they do not determine a
 /// height, there is no row: the other methods stand.
@@ -43,7 +44,7 @@ fn of_bowl(marked: &[&Marked<'_>], measurements: &[Measurement]) -> Option<Vec<R
     Some(rows)
 }
 
-/// A row of the same image, object and rater, for what rows have in common.
+/// A row of the same image, object and rater, from which the fused row takes what all rows have in common.
 fn template<'a>(marked: &Marked<'_>, measurements: &'a [Measurement]) -> Option<&'a ResultRow> {
     let same = |m: &&Measurement| {
         m.picture == marked.number
@@ -67,7 +68,7 @@ fn height_row(templates: &[&ResultRow], height: &JointHeight) -> Option<Row> {
     Some(finished(row, height, &fused))
 }
 
-/// The mouth on the plane that the images give together.
+/// The row of the mouth on the plane that the images give together.
 fn diameter_row(pictures: &[&Marked<'_>], templates: &[&ResultRow], height: &JointHeight) -> Option<Row> {
     let (mut shares, mut camera_heights_mm) = (Vec::new(), Vec::new());
     for (number, m) in pictures.iter().enumerate() {

@@ -1,4 +1,9 @@
-//! One size per object, rater, quantity and method from the images of a session, and one of all raters together.
+//! Step *fuse*: makes one size from the images of a session.
+//!
+//! - Input: the [`Measurement`]s of single images and the marked objects behind them ([`Marked`]), and `[select]` and
+//!   `[measure]` of study.toml.
+//! - Output: one row per object, rater, quantity and method, and one of all raters together; ranks and weights are set in
+//!   the measurements.
 
 mod joint;
 #[cfg(test)]
@@ -14,15 +19,16 @@ use super::measurement::Measurement;
 use super::row::{doubt_codes, error_pct, with_sigma};
 use crate::study::Study;
 
-/// Rater of rows of level consensus.
+/// The rater in rows of level consensus.
 const ALL_RATERS: &str = "all";
 
-/// What is fused into one row.
+/// Object, rater and quantity of one fused row.
 type Key<'a> = (&'a str, &'a str, Quantity);
 
-/// Fused rows by object, rater, quantity and method, then those of all raters. Ranks and weights are set in `measurements`.
+/// The fused rows by object, rater, quantity and method, followed by those of all raters. Ranks and weights are set in
+/// `measurements`.
 ///
-/// Weights are inverse variances, robust; errors that the images share do not average out ([`model::fuse`]).
+/// Weights are robust inverse variances; errors that the images share do not average out ([`model::fuse`]).
 pub(super) fn fuse(study: &Study, marked: &[Marked<'_>], measurements: &mut [Measurement]) -> Vec<ResultRow> {
     rank(measurements);
     let asked = &study.spec.measure.methods;
@@ -58,7 +64,7 @@ pub(super) fn fuse(study: &Study, marked: &[Marked<'_>], measurements: &mut [Mea
     rows
 }
 
-/// A fused row with what decides about the best.
+/// A fused row with all by which the best is chosen.
 struct Row {
     row: ResultRow,
     sigma: SizeSigma,
@@ -66,7 +72,8 @@ struct Row {
     weights: Vec<f64>,
 }
 
-/// The rows of the methods that were asked for, in the order of the methods, and the best of all of them if that was.
+/// The rows of the methods that were asked for, in the order of the methods, followed by the best of all of them if that was
+/// asked for.
 fn asked_for(mut rows: Vec<Row>, asked: &[Method]) -> Vec<ResultRow> {
     rows.sort_by_key(|row| row.row.method);
     let surest = rows
@@ -77,7 +84,7 @@ fn asked_for(mut rows: Vec<Row>, asked: &[Method]) -> Vec<ResultRow> {
     rows.into_iter().map(|row| row.row).filter(|row| asked.contains(&row.method)).chain(best).collect()
 }
 
-/// Ranks of the selected images for each size, the surest first; equally sure ones in their order.
+/// Sets the ranks of the selected images for each size, the surest first; equally sure ones keep their order.
 fn rank(measurements: &mut [Measurement]) {
     for (_, mut group) in groups_owned(measurements) {
         let key = |i: &usize| {
@@ -93,7 +100,7 @@ fn rank(measurements: &mut [Measurement]) {
 
 type Groups<'a> = BTreeMap<(&'a str, &'a str, Quantity, Method), Vec<usize>>;
 
-/// Numbers of the measurements that go together, those of selected images whose rank is at most `most`.
+/// The numbers of the measurements that go into one row: those of selected images whose rank is at most `most`.
 fn groups(measurements: &[Measurement], most: u32, by_rater: bool) -> Groups<'_> {
     let mut groups = Groups::new();
     for (i, m) in measurements.iter().enumerate() {
@@ -105,7 +112,7 @@ fn groups(measurements: &[Measurement], most: u32, by_rater: bool) -> Groups<'_>
     groups
 }
 
-/// The same without borrowing names.
+/// All groups by rater, with names of their own, so that the measurements can be changed.
 fn groups_owned(measurements: &[Measurement]) -> BTreeMap<(String, String, Quantity, Method), Vec<usize>> {
     let owned = |((object, rater, quantity, method), group): ((&str, &str, Quantity, Method), Vec<usize>)| {
         ((object.to_owned(), rater.to_owned(), quantity, method), group)
@@ -139,7 +146,7 @@ fn row_of(measurements: &[Measurement], group: &[usize], level: Level) -> Option
     Some(Row { row, sigma: fused.sigma, doubts, weights: fused.weights })
 }
 
-/// The row of what was fused from `rows`, without flags.
+/// The row of the size that was fused from `rows`, without flags.
 fn fused_row(rows: &[&ResultRow], fused: &Fused, level: Level, doubts: &[Doubt]) -> Option<ResultRow> {
     let first = *rows.first()?;
     let mean = |value: fn(&ResultRow) -> Option<f64>| {
@@ -174,7 +181,7 @@ fn fused_row(rows: &[&ResultRow], fused: &Fused, level: Level, doubts: &[Doubt])
     Some(with_sigma(row, &fused.sigma))
 }
 
-/// What to know about any of the rows, each code once, and who is off: a rater all of whose sizes are, else the image.
+/// The flags of any of the rows, each code once, and the outliers: a rater all of whose sizes are off, else the image.
 fn flags(rows: &[&ResultRow], fused: &Fused, level: Level) -> String {
     let mut all: BTreeSet<String> =
         rows.iter().flat_map(|row| row.flags.split(',')).filter(|flag| !flag.is_empty()).map(str::to_owned).collect();

@@ -1,7 +1,7 @@
 //! Gravity calibration of the accelerometer from still segments of the session itself.
 //!
-//! While the device is still it feels nothing but gravity, so whatever its direction, the length must be 1 g: the points lie
-//! on the unit sphere. An offset and a scale per axis that bring them there calibrate it, without a bench (van Hees et al.
+//! A device that is still feels nothing but gravity. Whatever its direction, the length must be 1 g: the points lie on the
+//! unit sphere. An offset and a scale per axis that bring them there calibrate the sensor without a bench (van Hees et al.
 //! 2014, J Appl Physiol 117:738-744; the R package GGIR, `g.calibrate`, is the implementation that the field uses).
 
 mod sphere;
@@ -15,17 +15,17 @@ use nalgebra::Vector3;
 use sphere::Points;
 pub(super) use windows::StillWindows;
 
-/// `calibrated = scale * (sample + offset)`, axis by axis.
+/// An offset and a scale for each axis: `calibrated = scale * (sample + offset)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisCalibration {
-    /// Added first, in g.
+    /// The offset, in g, which is added first.
     pub offset_g: Vector3<f64>,
-    /// Multiplied then.
+    /// The scale, by which the sum is multiplied.
     pub scale: Vector3<f64>,
 }
 
 impl AxisCalibration {
-    /// Changes nothing.
+    /// The calibration that changes nothing.
     const NONE: Self = Self { offset_g: Vector3::new(0.0, 0.0, 0.0), scale: Vector3::new(1.0, 1.0, 1.0) };
 
     /// The calibrated sample.
@@ -35,10 +35,10 @@ impl AxisCalibration {
     }
 }
 
-/// Why a calibration may be used, or not: the first that applies.
+/// The reason why a calibration may be used, or not: the first that applies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CalibrationVerdict {
-    /// Too few still windows.
+    /// There are too few still windows.
     TooFewWindows,
     /// The still windows show too few directions of gravity.
     TooFewDirections,
@@ -53,7 +53,7 @@ pub enum CalibrationVerdict {
 }
 
 impl CalibrationVerdict {
-    /// Stable code.
+    /// The stable code of the verdict.
     #[must_use]
     pub fn code(self) -> &'static str {
         match self {
@@ -67,30 +67,30 @@ impl CalibrationVerdict {
     }
 }
 
-/// What the still segments of a session say about its accelerometer.
+/// The gravity calibration that the still segments of a session give.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GravityCalibration {
     /// Whether it may be used.
     pub verdict: CalibrationVerdict,
-    /// Still windows of 10 s.
+    /// The number of still windows of 10 s.
     pub windows: u64,
-    /// Different directions among them, in cells of an eighth of g.
+    /// The number of different directions among them, in cells of an eighth of g.
     pub directions: usize,
-    /// Smallest component among them, in g, by axis.
+    /// The smallest component among them, in g, by axis.
     pub least_g: Vector3<f64>,
-    /// Largest likewise.
+    /// The largest component among them, in g, by axis.
     pub most_g: Vector3<f64>,
-    /// Mean departure of their length from 1 g, as recorded. None without a still window.
+    /// The mean departure of their length from 1 g, as recorded. None without a still window.
     pub error_before_mg: Option<f64>,
-    /// The same after the fit; none where none was tried.
+    /// The mean departure after the fit; none where no fit was tried.
     pub error_after_mg: Option<f64>,
-    /// The fit; none where none was tried.
+    /// The fit; none where no fit was tried.
     pub fit: Option<AxisCalibration>,
 }
 
-/// Fewer still windows (5 minutes) are not enough.
+/// Fewer still windows than this (5 minutes) are not enough.
 const MIN_WINDOWS: u64 = 30;
-/// Six numbers are fitted: twice as many directions leave something to be wrong about.
+/// Six numbers are fitted. With twice as many directions a wrong fit can show.
 const MIN_DIRECTIONS: usize = 12;
 /// Each axis must have been seen beyond this on both sides (GGIR's `spherecrit`).
 const MIN_REACH_G: f64 = 0.3;
@@ -98,8 +98,8 @@ const MIN_REACH_G: f64 = 0.3;
 const MAX_ERROR_MG: f64 = 10.0;
 /// Offsets of a working sensor are smaller (ADXL362 data sheet: zero-g offset up to 250 mg on z).
 const MAX_OFFSET_G: f64 = 0.3;
-/// So are departures of its scale from 1 (ADXL362 data sheet: 10 %). Scales that shrink to nothing would also bring all
-/// points to one place on the sphere.
+/// Departures of its scale from 1 are smaller as well (ADXL362 data sheet: 10 %). Scales that shrink to nothing would also
+/// bring all points to one place on the sphere.
 const MAX_SCALE_CHANGE: f64 = 0.2;
 
 impl GravityCalibration {
@@ -170,13 +170,13 @@ impl std::fmt::Display for GravityCalibration {
     }
 }
 
-/// To the two decimals that are shown, without -0.00.
+/// The number with the two decimals that are shown, without -0.00.
 fn without_sign_of_zero(g: f64) -> f64 {
     (100.0 * g).round() / 100.0 + 0.0
 }
 
 impl CalibrationVerdict {
-    /// What was expected, in words; empty when accepted.
+    /// The expectation that failed, in words; empty when accepted.
     #[must_use]
     pub fn expected(self) -> &'static str {
         match self {

@@ -9,13 +9,13 @@ use super::AxisCalibration;
 /// Means of still windows, merged where they are nearly equal, so that memory does not grow with nights on a shelf.
 #[derive(Debug, Default)]
 pub(super) struct Points {
-    /// By cell of 1/[`CELLS_PER_G`]: number of windows and the sum of their means.
+    /// The number of windows and the sum of their means, by cell of 1/[`CELLS_PER_G`] g.
     cells: BTreeMap<[i16; 3], (u32, Vector3<f64>)>,
 }
 
 /// Merging windows inside a cell moves their mean off a sphere by less than 16 mg squared / 8 g: 0.03 mg.
 const CELLS_PER_G: f64 = 64.0;
-/// Cells of an eighth of g count as directions.
+/// Cells of an eighth of g count as one direction each.
 const CELLS_PER_DIRECTION: i16 = 8;
 
 impl Points {
@@ -37,14 +37,14 @@ impl Points {
         coarse.len()
     }
 
-    /// Smallest and largest component of each axis; zeros without a point.
+    /// The smallest and the largest component of each axis; zeros without a point.
     pub(super) fn reach(&self) -> (Vector3<f64>, Vector3<f64>) {
         let mut means = self.means().map(|(_, mean)| mean);
         let Some(first) = means.next() else { return (Vector3::zeros(), Vector3::zeros()) };
         means.fold((first, first), |(least, most), mean| (least.inf(&mean), most.sup(&mean)))
     }
 
-    /// Mean departure of the length from 1 g after `calibration`, over windows.
+    /// The mean departure of the length from 1 g after `calibration`, over windows.
     pub(super) fn error_mg(&self, calibration: &AxisCalibration) -> Option<f64> {
         let (mut windows, mut sum) = (0.0, 0.0);
         for (weight, mean) in self.means() {
@@ -59,7 +59,7 @@ impl Points {
         self.cells.len()
     }
 
-    /// Number of windows and their mean, by cell.
+    /// The number of windows and their mean, by cell.
     fn means(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> {
         self.cells.values().map(|(windows, sum)| (f64::from(*windows), sum / f64::from(*windows)))
     }
@@ -71,7 +71,7 @@ const SETTLED_G: f64 = 1e-8;
 /// Residuals below this do not weigh more (GGIR).
 const SMALLEST_RESIDUAL_G: f64 = 0.01;
 
-/// Closest-point fit, after van Hees et al. 2014: every calibrated point is paired with the point of the unit sphere
+/// The closest-point fit after van Hees et al. 2014. Every calibrated point is paired with the point of the unit sphere
 /// nearest to it, each axis is regressed on its pair (a line: offset and scale), and that is repeated until nothing moves.
 /// Points that stay far from the sphere count less, by 1 over their residual.
 pub(super) fn fit(points: &Points) -> AxisCalibration {
@@ -103,7 +103,7 @@ pub(super) fn fit(points: &Points) -> AxisCalibration {
     calibration
 }
 
-/// Weighted least squares: intercept and slope. None where all x are one, or the slope is no scale.
+/// Intercept and slope by weighted least squares. None where all x are equal, or the slope is no scale.
 fn line<'a>(pairs: impl Iterator<Item = ((f64, f64), &'a f64)> + Clone) -> Option<(f64, f64)> {
     let (mut mass, mut sum_x, mut sum_y) = (0.0, 0.0, 0.0);
     for ((x, y), w) in pairs.clone() {

@@ -1,4 +1,4 @@
-//! Mean and SD of samples as they come.
+//! The mean and the SD of samples as they come.
 
 use nalgebra::Vector3;
 
@@ -30,7 +30,7 @@ impl AxisStats {
         self.origin + self.sum / f64::from(self.n)
     }
 
-    /// SD of each axis (divisor n).
+    /// The SD of each axis (divisor n).
     pub(super) fn sd(&self) -> Vector3<f64> {
         let n = f64::from(self.n);
         let variance = self.squares / n - (self.sum / n).component_mul(&(self.sum / n));

@@ -19,24 +19,25 @@ const GAP_S: f64 = 0.5;
 /// Fewer samples in a window do not tell an SD.
 const MIN_SAMPLES: u32 = 50;
 
-/// Takes samples in the order of time; constant work and no allocation for each, one point for each still window.
+/// Collects still windows from samples in the order of time: constant work and no allocation for each sample, one point for
+/// each still window.
 #[derive(Debug, Default)]
 pub(in crate::signals) struct StillWindows {
-    /// Start of the open window, and its last sample.
+    /// The times of the first and the last sample of the open window.
     open: Option<(UtcNs, UtcNs)>,
     stats: AxisStats,
     points: Points,
 }
 
 impl StillWindows {
-    /// The next sample of the session; those of other sensors are passed over.
+    /// Takes the next sample of the session; those of other sensors are passed over.
     pub(in crate::signals) fn push_sample(&mut self, sample: &Sample) {
         if let Sample::Acceleration { time, g } = sample {
             self.push(*time, &Vector3::from(*g));
         }
     }
 
-    /// The next sample, in g.
+    /// Takes the next sample, in g.
     pub(in crate::signals) fn push(&mut self, time: UtcNs, value_g: &Vector3<f64>) {
         if let Some((start, last)) = self.open {
             if time.seconds_since(last) > GAP_S {
@@ -67,7 +68,7 @@ impl StillWindows {
         self.open = None;
     }
 
-    /// What they say. The last window, which is not full, is left out.
+    /// The calibration by the windows so far. The last window, which is not full, is left out.
     pub(in crate::signals) fn calibration(&self) -> GravityCalibration {
         GravityCalibration::from_points(&self.points)
     }

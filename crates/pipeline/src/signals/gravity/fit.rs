@@ -3,18 +3,18 @@
 use model::UtcNs;
 use nalgebra::Vector3;
 
-/// `at_zero + slope * seconds`.
+/// The line `at_zero + slope * seconds`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line {
-    /// Value at the image's time.
+    /// The value at the image's time.
     pub at_zero: Vector3<f64>,
-    /// Change per second.
+    /// The change per second.
     slope: Vector3<f64>,
 }
 
 impl Line {
-    /// Least squares with `weights`; `seconds` are the samples' times from the image's. None without two different times
-    /// of some weight.
+    /// The line by least squares with `weights`; `seconds` are the samples' times from the image's. None without two
+    /// different times of some weight.
     pub(super) fn fit(seconds: &[f64], samples: &[(UtcNs, Vector3<f64>)], weights: &[f64]) -> Option<Self> {
         let (mut mass, mut moment, mut sum) = (0.0, 0.0, Vector3::zeros());
         for ((s, (_, a)), w) in seconds.iter().zip(samples).zip(weights) {
@@ -33,7 +33,7 @@ impl Line {
         usable.then(|| Self { at_zero: mean - slope * center_s, slope })
     }
 
-    /// Its value `seconds` after the image's time.
+    /// The value `seconds` after the image's time.
     pub(super) fn value_at(&self, seconds: f64) -> Vector3<f64> {
         self.at_zero + self.slope * seconds
     }

@@ -1,10 +1,10 @@
-//! How much a picture changed.
+//! The change between two pictures.
 
 use ingest::Thumbnail;
 
-/// Mean absolute difference of two small grey pictures, each brought to mean 0 and SD 1, so that exposure does not count
+/// The mean absolute difference of two small grey pictures, each brought to mean 0 and SD 1, so that exposure does not count
 /// as motion: 0 for the same picture, about 1.1 for two that have nothing in common. None where the sizes differ, or a
-/// picture is of one grey.
+/// picture is of a single grey.
 #[must_use]
 pub fn change(a: &Thumbnail, b: &Thumbnail) -> Option<f64> {
     if (a.width_px, a.height_px) != (b.width_px, b.height_px) {

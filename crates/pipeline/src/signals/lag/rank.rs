@@ -1,6 +1,6 @@
 //! Spearman's rank correlation.
 
-/// Ranks from 0; equal values share their mean rank.
+/// The ranks of the values, from 0; equal values share their mean rank.
 #[expect(clippy::cast_precision_loss, reason = "a count of pairs")]
 pub(super) fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
@@ -17,7 +17,7 @@ pub(super) fn ranks(values: &[f64]) -> Vec<f64> {
     ranks
 }
 
-/// Correlation of two lists of ranks; none where one of them is flat.
+/// The correlation of two lists of ranks; none where one of them is flat.
 #[expect(clippy::cast_precision_loss, reason = "a count of pairs")]
 pub(super) fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
     let n = a.len().min(b.len()) as f64;

@@ -5,22 +5,22 @@ use model::median;
 use super::rank::{correlation, ranks};
 use super::{LAGS, STEP_S, lag_s};
 
-/// Two images: how much the picture changed, and gravity around both.
+/// A pair of images: how much the picture changed, and the gravity around both.
 #[derive(Debug, Clone, Copy)]
 pub struct PairMotion<'a> {
-    /// Change of the picture.
+    /// The change of the picture, from [`change`](super::change).
     pub change: f64,
-    /// Directions of gravity around the first image, by lag.
+    /// The directions of gravity around the first image, by lag.
     pub from: &'a [Option<nalgebra::Vector3<f64>>],
-    /// Around the second.
+    /// The directions of gravity around the second image, by lag.
     pub to: &'a [Option<nalgebra::Vector3<f64>>],
 }
 
-/// Whether a lag can be told.
+/// Whether a lag can be stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LagVerdict {
-    /// It can.
-    Told,
+    /// It can be stated.
+    Known,
     /// Too few pairs of pictures with acceleration around both.
     TooFewPairs,
     /// At no lag do pictures and gravity agree much better than by chance.
@@ -31,27 +31,27 @@ pub enum LagVerdict {
     AtTheEnd,
 }
 
-/// What pictures and gravity say about the lag.
+/// The lag by pictures and gravity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LagEstimate {
-    /// Whether it can be told.
+    /// Whether it can be stated.
     pub verdict: LagVerdict,
-    /// Sensor time minus image time, where they agree best. None without an agreement to compare.
+    /// Sensor time minus image time, in seconds, where the two agree best. None without an agreement to compare.
     pub lag_s: Option<f64>,
-    /// Rank correlation there.
+    /// The rank correlation at that lag.
     pub correlation: Option<f64>,
-    /// Half of the interval of lags that agree nearly as well.
+    /// Half the width of the interval of lags that agree nearly as well.
     pub half_width_s: Option<f64>,
-    /// Pairs of pictures.
+    /// The number of pairs of pictures.
     pub pairs: usize,
 }
 
 /// Fewer pairs say nothing.
 const MIN_PAIRS: usize = 30;
-/// A peak is at least so high, in standard errors of a rank correlation of unrelated series, 1/sqrt(n - 1). The best of
+/// A peak is at least this high, in standard errors of a rank correlation of unrelated series, 1/sqrt(n - 1). The best of
 /// 201 lags by chance stays below 4 (1 in 80).
 const MIN_STANDARD_ERRORS: f64 = 5.0;
-/// And at least so high in itself.
+/// A peak is also at least this high in itself.
 const MIN_CORRELATION: f64 = 0.3;
 /// Lags within one standard error of the peak agree nearly as well; they may not spread more than this.
 const MAX_HALF_WIDTH_S: f64 = 1.0;
@@ -86,7 +86,7 @@ pub fn estimate(pairs: &[PairMotion<'_>]) -> LagEstimate {
     estimated
 }
 
-/// Angle between the directions at each lag; none unless all are known.
+/// The angle between the directions at each lag; none unless all are known.
 fn rotations(from: &[Option<nalgebra::Vector3<f64>>], to: &[Option<nalgebra::Vector3<f64>>]) -> Option<Vec<f64>> {
     let angle = |(a, b): (&Option<nalgebra::Vector3<f64>>, &Option<nalgebra::Vector3<f64>>)| {
         let (a, b) = ((*a)?, (*b)?);
@@ -113,11 +113,11 @@ fn judge(curve: &[f64], estimated: &mut LagEstimate) {
     } else if half_width_s > MAX_HALF_WIDTH_S || above_median < MIN_ABOVE_MEDIAN * standard_error {
         LagVerdict::NotSharp
     } else {
-        LagVerdict::Told
+        LagVerdict::Known
     };
 }
 
-/// Where the parabola through the peak and its neighbours is highest, in steps from the peak.
+/// The place where the parabola through the peak and its neighbours is highest, in steps from the peak.
 fn top_of_parabola(curve: &[f64], peak: usize) -> f64 {
     match peak.checked_sub(1).and_then(|before| curve.get(before..=peak + 1)) {
         Some(&[before, top, after]) if before + after < 2.0 * top => {

@@ -61,7 +61,7 @@ fn a_known_lag_is_found_within_0_3_s() {
     let head = Head::new(2000.0, 3.0);
     for lag_s in [-4.2, 0.0, 1.7, 7.35] {
         let estimate = estimated(&head, 150, lag_s, saturating);
-        assert_eq!(estimate.verdict, LagVerdict::Told, "{estimate:?}");
+        assert_eq!(estimate.verdict, LagVerdict::Known, "{estimate:?}");
         assert!((estimate.lag_s.unwrap() - lag_s).abs() < 0.3, "{lag_s}: {estimate:?}");
     }
 }
@@ -94,7 +94,7 @@ fn a_head_that_turns_slowly_gives_no_sharp_lag() {
 #[test]
 fn a_lag_beyond_the_search_is_not_told() {
     let estimate = estimated(&Head::new(2000.0, 3.0), 150, 14.0, saturating);
-    assert_ne!(estimate.verdict, LagVerdict::Told, "{estimate:?}");
+    assert_ne!(estimate.verdict, LagVerdict::Known, "{estimate:?}");
 }
 
 #[test]

@@ -5,15 +5,15 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Half of the cone: VL53L0X data sheet, field of view 25 degrees.
+/// Half of the cone. VL53L0X data sheet: field of view 25 degrees.
 const HALF_CONE_RAD: f64 = 12.5 * std::f64::consts::PI / 180.0;
 
-/// Reading over distance along the axis, of a table that lies at a depression of `pitch_rad` from the axis. None where
-/// part of the cone misses the table.
+/// The ratio of the reading to the distance along the axis, for a table at a depression of `pitch_rad` from the axis. None
+/// where part of the cone misses the table.
 ///
-/// Assumed: sensitivity is the same all over the cone and zero outside; the table is matt (Lambert); the reading is the
-/// mean distance, weighed by the light that comes back. A ray at depression e meets the table at r = c / sin e, and of the
-/// light sent into the solid angle dO, sin(e) / r^2 comes back. With c = d sin w:
+/// It is assumed that the sensitivity is the same all over the cone and zero outside, that the table is matt (Lambert), and
+/// that the reading is the mean distance, weighted by the light that comes back. A ray at depression e meets the table at r
+/// = c / sin e, and of the light sent into the solid angle dO, sin(e) / r^2 comes back. With c = d sin w:
 ///
 /// k(w) = integral of r w dO / (d integral of w dO) = sin w I2 / I3, where In is the integral of sin^n e dO.
 ///

@@ -1,13 +1,13 @@
-//! Records that repeat a reading: the sensor measures more slowly than it is logged.
+//! Records that repeat a reading, because the sensor measures more slowly than it is logged.
 
 use model::{UtcNs, median};
 
-/// A value that came in one or more equal records.
+/// A value that stands in one or more equal records.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Reading {
-    /// The value, codes included.
+    /// The value, which may be a code.
     pub mm: f64,
-    /// How many readings of the sensor the records stand for.
+    /// The number of readings of the sensor that the records stand for.
     pub count: usize,
 }
 
@@ -16,7 +16,8 @@ const LONGEST_STEP_S: f64 = 0.25;
 /// With fewer runs the sensor's own period cannot be told from them.
 const MIN_RUNS: usize = 4;
 
-/// A run of two readings is twice as long as one; times of whole records leave room in between.
+/// A run of two readings is twice as long as a run of one. Times are those of whole records, so some room is left in
+/// between.
 const SHORT: f64 = 1.5;
 
 struct Run {
@@ -50,7 +51,7 @@ fn runs(samples: &[(UtcNs, f64)]) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     for (time, mm) in samples {
         match runs.last_mut() {
-            // Values come from whole counts: a held one is equal to the bit.
+            // Values come from whole counts, so a held one is equal to the bit.
             Some(run) if run.mm.to_bits() == mm.to_bits() && time.seconds_since(run.last) <= LONGEST_STEP_S => {
                 run.records += 1;
                 run.last = *time;
@@ -61,8 +62,9 @@ fn runs(samples: &[(UtcNs, f64)]) -> Vec<Run> {
     runs
 }
 
-/// Mean length of the runs that are no longer than [`SHORT`] times their lower quartile; of those within the window, since
-/// the first and the last may be cut off by it. (The mean, because lengths are whole numbers of records.)
+/// The mean length of the runs that are no longer than [`SHORT`] times their lower quartile. Only runs inside the window
+/// count, since the first and the last may be cut off by it. (The mean is taken because lengths are whole numbers of
+/// records.)
 #[expect(clippy::cast_precision_loss, reason = "a window holds some thousand records at most")]
 fn shortest_hold_s(lengths_s: &[f64]) -> f64 {
     let Some(inner) = lengths_s.get(1..lengths_s.len().saturating_sub(1)).filter(|inner| inner.len() >= MIN_RUNS)

@@ -9,16 +9,16 @@ use super::ROBUST_SD;
 pub(super) struct Levels {
     /// The larger group, sorted.
     major_mm: Vec<f64>,
-    /// Readings in the smaller one.
+    /// The number of readings in the smaller one.
     minor: usize,
 }
 
 /// Levels that are closer than this are one: food is no flatter.
 const MIN_STEP_MM: f64 = 20.0;
-/// Levels are this many robust SDs of the readings around them apart. Gaussian noise, split at its best, stays below 3,
-/// and so does a steady drift.
+/// Two levels are at least this far apart, in robust SDs of the readings around them. Gaussian noise, split at its best,
+/// stays below 3, and so does a steady drift.
 const MIN_STEP_SD: f64 = 5.0;
-/// The smaller group comes at least so many times in a row: single stray echoes are the median's business.
+/// The smaller group comes at least this many times in a row; the median takes care of single stray echoes.
 const MIN_MINOR: usize = 3;
 /// A majority below this part of the readings is not clear.
 const CLEAR: f64 = 0.6;
@@ -34,9 +34,9 @@ impl Levels {
 
 /// The two levels of `readings_mm` (in the order of time); none when there is one.
 ///
-/// The sorted readings are split where the two sides' means are best apart (Otsu 1979). They are two levels when the
-/// sides' medians are far apart against the robust SD of the readings around their own median. Sorting, and not a split in
-/// time, also finds a hand that came and went.
+/// The sorted readings are split where the two sides' means are furthest apart (Otsu 1979). They are two levels when the
+/// sides' medians are far apart against the robust SD of the readings around their own median. Sorting, unlike a split in
+/// time, also detects a hand that came and went.
 pub(super) fn two_levels(readings_mm: &[f64]) -> Option<Levels> {
     let mut sorted = readings_mm.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -55,7 +55,7 @@ pub(super) fn two_levels(readings_mm: &[f64]) -> Option<Levels> {
     persists.then(|| Levels { major_mm: major.to_vec(), minor: minor.len() })
 }
 
-/// How many of the sorted values are on the low side when the variance between the sides is largest.
+/// The number of sorted values on the low side when the variance between the sides is largest.
 #[expect(clippy::cast_precision_loss, reason = "a window holds some thousand readings at most")]
 fn best_split(sorted: &[f64]) -> Option<usize> {
     let (n, total) = (sorted.len() as f64, sorted.iter().sum::<f64>());

@@ -1,4 +1,4 @@
-//! Range at an image: robust over a short window.
+//! The range at an image, robust over a short window.
 
 pub(super) mod cone;
 mod held;
@@ -12,36 +12,36 @@ use serde::{Deserialize, Serialize};
 use super::settings::ReadingSettings;
 use held::Reading;
 
-/// What the range sensor said around one image.
+/// The range readings around one image.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Range {
-    /// Median of the valid readings, of the level that most of them say if there are two; none when there are too few, or
-    /// when neither level has a clear majority.
+    /// The median of the valid readings, or of the level that most of them show if there are two. None when there are too
+    /// few, or when neither level has a clear majority.
     pub median_mm: Option<f64>,
     /// Their robust SD: 1.4826 times the median absolute deviation.
     pub spread_mm: Option<f64>,
-    /// How many records were valid.
+    /// The number of valid records.
     pub valid_samples: u32,
-    /// How many readings were behind them.
+    /// The number of readings of the sensor behind them.
     pub distinct: u32,
-    /// One single value, held implausibly long.
+    /// Whether there was one single value, held implausibly long.
     pub held: bool,
-    /// Two distances.
+    /// Whether there were two distances.
     pub step: bool,
 }
 
-/// Codes of the VL53L0X for 'no target' (ST UM2039: out of range).
+/// The codes of the VL53L0X for 'no target' (ST UM2039: out of range).
 pub(crate) const NO_TARGET_MM: [f64; 2] = [8190.0, 8191.0];
 /// Fewer valid readings than this in the window give no range.
 const MIN_VALID: usize = 3;
 /// Nor does a window in which fewer than one in this many readings are valid: a few echoes among 'no target' are not the
 /// table.
 const MIN_VALID_ONE_IN: usize = 3;
-/// So many readings of one single value are a stuck sensor: the VL53L0X's noise is of the order of its resolution or more
-/// (real log: SD 2.15 mm at 75 mm, where 25 equal readings in a row have a chance below 1e-17).
+/// At least this many readings of one single value are a stuck sensor: the VL53L0X's noise is of the order of its resolution
+/// or more (real log: SD 2.15 mm at 75 mm, where 25 equal readings in a row have a chance below 1e-17).
 const HELD_READINGS: usize = 25;
 
-/// Median of the readings that are ranges: between the limits, and no code.
+/// The range by the readings between the limits that are no code.
 pub(super) fn range_from(samples: &[(UtcNs, f64)], spec: &ReadingSettings) -> Range {
     let is_range = |mm: f64| mm >= spec.range_min_mm && mm <= spec.range_max_mm && !NO_TARGET_MM.contains(&mm);
     let valid_samples = count(samples.iter().filter(|(_, mm)| is_range(*mm)).count());
@@ -66,7 +66,7 @@ pub(super) fn range_from(samples: &[(UtcNs, f64)], spec: &ReadingSettings) -> Ra
     Range { median_mm: center_mm, spread_mm, valid_samples, distinct, held, step }
 }
 
-/// Robust SD of Gaussian noise, in median absolute deviations.
+/// The robust SD of Gaussian noise, in median absolute deviations.
 const ROBUST_SD: f64 = 1.4826;
 
 fn count(n: usize) -> u32 {

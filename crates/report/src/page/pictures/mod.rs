@@ -1,4 +1,4 @@
-//! Pictures with marks, for the page: kept in memory while they are few, else as files beside it.
+//! Pictures with marks for the page: in memory while they are few, and else as files beside the page.
 
 mod names;
 mod outline;
@@ -16,24 +16,24 @@ use names::Names;
 use outline::MarkEntry;
 use store::Store;
 
-/// Pictures of so many bytes together are part of the page: with what a page holds besides, it stays below 10 MB.
+/// Pictures of so many bytes together are part of the page, which stays below 10 MB with all else that it holds.
 const INLINE_BYTES: usize = 4 << 20;
 
-/// A picture that could not be stored.
+/// Why a picture could not be stored.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
-    /// A folder or file cannot be made.
+    /// A folder or a file cannot be made.
     #[error("cannot write a picture of the report; is the disk full? {}", path.display())]
     Write {
-        /// The folder or file.
+        /// The folder or the file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
 }
 
-/// Takes pictures for a page in the folder of a report. While they are few they are held, and become part of the page; once
-/// they are more, each is a file below `pictures/` as soon as it comes. Memory holds at most 4 MB of pictures, and the marks.
+/// The pictures of a page in the folder of a report. While they are few they are held, and become part of the page. Once they
+/// are more, each becomes a file below `pictures/` as soon as it comes. Memory holds at most 4 MB of pictures, and the marks.
 #[derive(Debug)]
 pub struct Pictures {
     entries: Vec<Entry>,
@@ -51,13 +51,13 @@ struct Entry {
     view: &'static str,
     width: u32,
     height: u32,
-    /// Below the report's folder.
+    /// Path below the report's folder.
     #[serde(skip)]
     file: String,
     marks: Vec<MarkEntry>,
 }
 
-/// The same with where the picture is.
+/// A picture in the page's index, with its source.
 #[derive(Debug, Serialize)]
 pub(super) struct Indexed<'a> {
     #[serde(flatten)]
@@ -66,7 +66,7 @@ pub(super) struct Indexed<'a> {
 }
 
 impl Pictures {
-    /// For the page in the folder `report`, which need not exist yet.
+    /// No pictures yet, for the page in the folder `report`, which need not exist.
     #[must_use]
     pub fn new(report: &Path) -> Self {
         Self {
@@ -78,24 +78,24 @@ impl Pictures {
         }
     }
 
-    /// How many there are.
+    /// Number of pictures.
     #[must_use]
     pub fn len(&self) -> usize {
         self.entries.len()
     }
 
-    /// Whether there is none.
+    /// Whether there is no picture.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
 
-    /// Whether they are files beside the page.
+    /// Whether the pictures are files beside the page.
     fn are_files(&self) -> bool {
         self.held.len() < self.entries.len()
     }
 
-    /// All of them, in the order in which they came.
+    /// All pictures, in the order in which they came.
     pub(super) fn index(&self) -> Vec<Indexed<'_>> {
         let inline = |jpeg: &Vec<u8>| format!("data:image/jpeg;base64,{}", BASE64_STANDARD.encode(jpeg));
         let source = |(place, entry): (usize, &Entry)| match self.held.get(place) {
@@ -105,11 +105,11 @@ impl Pictures {
         self.entries.iter().enumerate().map(|item| Indexed { entry: item.1, source: source(item) }).collect()
     }
 
-    /// Removes the pictures of an earlier report in the same folder that are not of this one: a picture that a study no
+    /// Removes the pictures of an earlier report in the same folder that are not part of this one: a picture that a study no
     /// longer has must not stay in its report.
     ///
     /// # Errors
-    /// When the list of files cannot be read or written, or a file not be removed.
+    /// The list of files cannot be read or written, or a file cannot be removed.
     pub(crate) fn finish(&self) -> Result<(), PictureError> {
         let files = if self.are_files() { &self.entries[..] } else { &[] };
         self.store.finish(files.iter().map(|entry| entry.file.as_str()))
@@ -138,7 +138,7 @@ impl GallerySink for Pictures {
     }
 }
 
-/// How a view is called in names of files, and by the script.
+/// The name of a view in names of files and in the script.
 fn code(view: PictureView) -> &'static str {
     match view {
         PictureView::Camera => "camera",

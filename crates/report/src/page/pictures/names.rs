@@ -1,19 +1,19 @@
-//! Names of picture files: sessions and images are called as people like; files must open everywhere, from a link as well.
+//! Names of picture files. People name sessions and images as they like, but files must open everywhere, also from a link.
 
 use std::collections::BTreeSet;
 
-/// Longest part of a name that is taken over, in characters.
+/// Length of the longest part of a name that is taken over, in characters.
 const LONGEST: usize = 60;
 
-/// Hands out names, each once.
+/// The names of files that have been given away.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     given: BTreeSet<String>,
 }
 
 impl Names {
-    /// `pictures/SESSION/IMAGE.VIEW.jpg` of ASCII letters, digits, `-` and `_`; a name that is taken (upper and lower case
-    /// are one, as on many disks) gets a number.
+    /// A new name `pictures/SESSION/IMAGE.VIEW.jpg` of ASCII letters, digits, `-` and `_`. A name that is taken (upper and lower
+    /// case are the same, as on many disks) gets a number.
     pub(super) fn file(&mut self, session: &str, image: &str, view: &str) -> String {
         let base = image.rsplit('/').next().unwrap_or(image);
         let stem = base.rsplit_once('.').map_or(base, |(stem, _)| stem);
@@ -30,10 +30,10 @@ impl Names {
 
 fn plain(name: &str) -> String {
     let kept = |character: char| if character.is_ascii_alphanumeric() || character == '-' { character } else { '_' };
-    // The last characters tell images apart, the first do not.
+    // The last characters tell images apart, and the first ones do not.
     let skipped = name.chars().count().saturating_sub(LONGEST);
     let plain: String = name.chars().skip(skipped).map(kept).collect();
-    // Windows keeps names of up to four characters for devices; none has an underscore.
+    // Windows keeps names of up to four characters for devices, and none of them has an underscore.
     if plain.len() < 5 { format!("{plain}_") } else { plain }
 }
 

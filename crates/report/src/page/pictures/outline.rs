@@ -1,11 +1,11 @@
-//! Marks, small enough for a page that has thousands.
+//! Marks, made small enough for a page that has thousands of them.
 
 use std::fmt::Write as _;
 
 use model::GalleryMark;
 use serde::Serialize;
 
-/// A point nearer than this to the line between its neighbours is not seen, in pixels of the picture as shown.
+/// A point that is nearer than this to the line between its neighbours cannot be seen. In pixels of the picture as shown.
 const UNSEEN_PX: f64 = 0.3;
 
 /// A mark in the page's index.
@@ -15,7 +15,7 @@ pub(super) struct MarkEntry {
     rater: String,
     feature: &'static str,
     closed: bool,
-    /// As the attribute `points` of an SVG polyline, in pixels to a tenth.
+    /// The points as the attribute `points` of an SVG polyline, in pixels, rounded to a tenth.
     points: String,
 }
 
@@ -47,7 +47,8 @@ fn tenth(coordinate: f64) -> f64 {
     if tenth == 0.0 { 0.0 } else { tenth }
 }
 
-/// Without points that are not seen (Douglas and Peucker, 1973), with a stack of its own in place of recursion.
+/// The line without the points that cannot be seen (Douglas and Peucker, 1973). It has a stack of its own in place of
+/// recursion.
 fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     if points.len() < 3 {
         return points.to_vec();
@@ -67,7 +68,7 @@ fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     points.iter().zip(kept).filter(|(_, kept)| *kept).map(|(point, _)| *point).collect()
 }
 
-/// Distance of a point from the segment between two others.
+/// The distance of a point from the segment between two others.
 fn from_line([x, y]: [f64; 2], [ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
     let (dx, dy) = (bx - ax, by - ay);
     let squared = dx * dx + dy * dy;

@@ -1,4 +1,4 @@
-//! Files of pictures below the folder of a report, and the list of them.
+//! The files of pictures below the folder of a report, and the list of them.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -6,10 +6,11 @@ use std::path::{Component, Path, PathBuf};
 
 use super::PictureError;
 
-/// The files that a report has written, a line each: the next report in the same folder removes those that it has not.
+/// The list of the files that a report has written, one per line. The next report in the same folder removes those that it does
+/// not have.
 const LIST: &str = "pictures/files.txt";
 
-/// Writes below a report's folder.
+/// A report's folder, into which pictures are written.
 #[derive(Debug)]
 pub(super) struct Store {
     report: PathBuf,
@@ -20,7 +21,8 @@ impl Store {
         Self { report: report.to_owned() }
     }
 
-    /// Writes a file. Not synced, as results are: it can be made again, and the page that shows it is written after it.
+    /// Writes a file. It is not synced, as results are, because it can be made again, and the page that shows it is written after
+    /// it.
     pub(super) fn write(&self, file: &str, bytes: &[u8]) -> Result<(), PictureError> {
         let path = self.report.join(file);
         let wrap = |source| PictureError::Write { path: path.clone(), source };
@@ -30,7 +32,7 @@ impl Store {
         std::fs::write(&path, bytes).map_err(wrap)
     }
 
-    /// Removes what an earlier report wrote and this one did not, and lists what this one wrote.
+    /// Removes the files that an earlier report wrote and this one did not, and lists those of this one.
     pub(super) fn finish<'a>(&self, files: impl Iterator<Item = &'a str>) -> Result<(), PictureError> {
         let files: BTreeSet<&str> = files.collect();
         let list = self.report.join(LIST);
@@ -49,7 +51,7 @@ impl Store {
         self.write(LIST, text.as_bytes())
     }
 
-    /// Removes a file, and its folder if it was the last there.
+    /// Removes a file, and its folder where the file was the last in it.
     fn remove(&self, file: &str) -> Result<(), PictureError> {
         let path = self.report.join(file);
         match std::fs::remove_file(&path) {
@@ -64,7 +66,8 @@ impl Store {
     }
 }
 
-/// A list that somebody has changed must not have other files removed.
+/// Whether a path of the list is a picture below `pictures/`. A list that somebody has changed must not cause other files to be
+/// removed.
 fn is_ours(file: &str) -> bool {
     let path = Path::new(file);
     let plain = path.components().all(|part| matches!(part, Component::Normal(_)));

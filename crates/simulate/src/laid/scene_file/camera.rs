@@ -1,4 +1,4 @@
-//! Which camera a scene is seen through.
+//! The camera of a scene file.
 
 use model::CameraSpec;
 use serde::de::value::MapAccessDeserializer;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer};
 pub enum SceneCamera {
     /// A built-in camera, or a camera file beside the scene file.
     Named(String),
-    /// Its own.
+    /// A camera of the scene's own.
     Own(Box<CameraSpec>),
 }
 
@@ -20,7 +20,7 @@ impl<'de> Deserialize<'de> for SceneCamera {
     }
 }
 
-/// Not an untagged enum: that would lose which key is wrong, and where.
+/// A visitor in place of an untagged enum, whose errors would not say which key is wrong, and where.
 struct CameraVisitor;
 
 impl<'de> Visitor<'de> for CameraVisitor {

@@ -1,4 +1,4 @@
-//! Plates, bowls and boxes.
+//! Plates, bowls and boxes of a scene file.
 
 use model::{Kind, Shape};
 use nalgebra::Point2;
@@ -8,15 +8,18 @@ use super::number::{Checked, Name, Percent, Place, Turn, Within, or, point, shar
 use super::surface::{Surface, TextureFields};
 use crate::laid::ware::{FOOT_RING_MM, Wall, Ware};
 
-/// A size across, a height, a thickness.
+/// A size across, in mm.
 type Across = Within<20, 1000>;
+/// A height, in mm.
 type Height = Within<3, 500>;
+/// A thickness, in mm.
 type Thickness = Within<1, 50>;
 
-/// Where the file does not say: width of a plate's flange as a share of its (short) side, its foot's share of the well, and a
-/// bowl's foot as a share of its diameter.
+/// Width of a plate's flange as a share of its (short) side, where the file gives none.
 const FLANGE: f64 = 0.16;
+/// A plate's foot as a share of its well, where the file gives none.
 const FOOT_OF_WELL: f64 = 0.82;
+/// A bowl's foot as a share of its diameter, where the file gives none.
 const BOWL_FOOT: f64 = 0.5;
 
 /// A container that can be made.
@@ -26,10 +29,10 @@ pub(super) struct Container {
     pub ware: Ware,
     pub at_mm: Point2<f64>,
     pub turn_rad: f64,
-    /// Its glaze, where the file says it.
+    /// Its glaze, where the file gives one.
     pub surface: Option<Surface>,
     pub gloss_pct: Option<Percent>,
-    /// How full it is at first, 0 to 1.
+    /// Share of it that is full at first, from 0 to 1.
     pub full: f64,
 }
 
@@ -52,7 +55,7 @@ pub(super) struct PlateFields {
     food_pct: Option<Percent>,
 }
 
-/// How a bowl's wall rises.
+/// The form of a bowl's wall, as it is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Profile {
@@ -93,12 +96,12 @@ pub(super) struct BoxFields {
     food_pct: Option<Percent>,
 }
 
-/// Where a container stands that is not told where.
+/// The place of a container; 310 mm in front of the wearer where the file gives none.
 fn place(at_mm: Option<[Place; 2]>) -> Point2<f64> {
     at_mm.map_or_else(|| Point2::new(0.0, 310.0), point)
 }
 
-/// `key` of `name` must lie between both.
+/// The value `got` of `key`. Fails where it does not lie between the two limits.
 fn check(name: &Name, key: &str, got: f64, [low, high]: [f64; 2]) -> Result<f64, String> {
     if got >= low && got <= high {
         return Ok(got);
@@ -106,7 +109,7 @@ fn check(name: &Name, key: &str, got: f64, [low, high]: [f64; 2]) -> Result<f64,
     Err(format!("'{}': {key} = {got}, expected {low:.1} to {high:.1}, which its other sizes leave", name.0))
 }
 
-/// What is printed is printed about an axis.
+/// Refuses a printed glaze, since prints lie about an axis, which a box or a rectangular plate does not have.
 fn check_glaze(name: &Name, glaze: Option<&Surface>) -> Result<(), String> {
     match glaze {
         Some(surface) if surface.is_printed() => {
@@ -138,7 +141,7 @@ impl TryFrom<PlateFields> for Container {
         let thick = or(plate.thickness_mm, f64::min(5.0, 0.05 * short));
         check(&name, "thickness_mm", thick, [1.0, 0.05 * short])?;
         let height = check(&name, "height_mm", or(plate.height_mm, 24.0), [ring + 1.2 * thick, 0.5 * short])?;
-        // A round plate may be without a flange, as a coupe is.
+        // A round plate may have no flange, as a coupe.
         let widest = if shape == Shape::Circle { long } else { long - 2.0 * thick };
         let default = long - 2.0 * FLANGE * short;
         let well = check(&name, "well_mm", or(plate.well_mm, default), [long - 0.9 * short, widest])?;

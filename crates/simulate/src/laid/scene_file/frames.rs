@@ -1,4 +1,4 @@
-//! Sessions of a scene file -> plans.
+//! Plans the sessions of a scene file.
 
 use nalgebra::Point2;
 use rand::Rng;
@@ -14,25 +14,25 @@ use crate::sensors::Motion;
 use crate::world::photo::Exposure;
 use crate::world::{Material, World};
 
-/// The first picture is taken so long after one period.
+/// Seconds after the first period at which the first picture is taken.
 const LATER_S: f64 = 0.25;
-/// Between two pictures the head takes so long to turn.
+/// Seconds that the head takes to turn between two pictures.
 const TURN_S: f64 = 3.0;
-/// A head's turn while a picture is taken, as a share of the picture's width (SD).
+/// SD of a head's motion while a picture is taken, as a share of the picture's width.
 const HEAD_MOTION: f64 = 0.0012;
-/// More than a session can have images: streams of randomness of different sessions stay apart.
+/// A number greater than that of a session's images, which keeps the streams of randomness of different sessions apart.
 const MOST_IMAGES: usize = 4096;
 
-/// Plans the sessions of a scene.
+/// A planner of the sessions of a scene.
 pub(super) struct Planner<'a> {
     scene: &'a SceneSpec,
     seed: u64,
     width_px: u32,
-    /// Of each container.
+    /// The glaze of each container.
     glazes: Vec<Material>,
 }
 
-/// A session's table before anything is served.
+/// The table of a session before anything is served.
 struct Table {
     world: World,
     vessels: Vec<Vessel>,
@@ -48,7 +48,7 @@ impl<'a> Planner<'a> {
         Self { scene, seed, width_px, glazes: scene.containers().enumerate().map(glaze).collect() }
     }
 
-    /// Number of sessions, and of the images of all.
+    /// The number of sessions, and that of all images.
     pub fn extent(&self) -> (usize, u64) {
         let images = |session: &Session| session.images(self.scene.served(session).len()) as u64;
         (self.scene.sessions.len(), self.scene.sessions.iter().map(|session| images(&session.0)).sum())
@@ -135,7 +135,7 @@ impl<'a> Planner<'a> {
             world.bodies.extend(each.ware.bodies(each.at_mm, each.turn_rad, &self.glazes[*index]));
             let full = each.full * (1.0 - session.eaten * through(at, images.saturating_sub(1)));
             if each.full > 0.0 {
-                // The same lot for all images of a session: the same food, less of it.
+                // All images of a session have the same randomness, so that they show the same food, and less and less of it.
                 let mut food = random(self.seed, Use::Food, number * MOST_IMAGES + index);
                 world.bodies.extend(things::food(&mut food, &each.ware, each.at_mm, full));
             }
@@ -161,7 +161,7 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// What is on the table in an image.
+    /// The containers on the table in an image.
     fn shown<'b>(
         &self,
         session: &Session,

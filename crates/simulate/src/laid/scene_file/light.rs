@@ -1,4 +1,4 @@
-//! Light, and what the camera makes of it.
+//! Light and exposure of a scene file.
 
 use nalgebra::Vector2;
 use serde::Deserialize;
@@ -7,7 +7,7 @@ use super::number::{Percent, Place, Within, or, point_above};
 use crate::world::Light;
 use crate::world::photo::Exposure;
 
-/// A level of light: 1 is that of a white surface in full light.
+/// A level of light, in units of a white surface in full light.
 type Level = Within<0, 5>;
 
 /// `[light]`.

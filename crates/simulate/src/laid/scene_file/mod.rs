@@ -1,7 +1,7 @@
-//! Scenes of one's own: a TOML file -> a study (docs/simulate.md lists its keys).
+//! Scene files: users describe a scene in TOML, and the program makes a study of it (docs/simulate.md lists the keys).
 //!
-//! Every value is checked where it stands, so that whoever reads the file can tell line and key of what is wrong. What the
-//! file leaves out is drawn by lot or has a default.
+//! Every value is checked where it stands, so that an error names the line and the key that is wrong. Values that the file leaves
+//! out are random or have a default.
 
 mod camera;
 mod containers;
@@ -41,7 +41,7 @@ use things::{CutlerySpec, GlassSpec, HandFields, HandSpec, NapkinSpec, Telephone
 
 /// Version of the scene file that this program reads.
 const SCENE_SCHEMA_VERSION: u32 = 1;
-/// A session's sensor packets are made as a whole.
+/// Greatest length of a session in seconds. Its packets are all made at once, in memory.
 const LONGEST_S: f64 = 86_400.0;
 const CAMERA: &str = "scene-camera";
 
@@ -79,24 +79,24 @@ pub struct SceneSpec {
 }
 
 impl SceneSpec {
-    /// The camera.
+    /// The camera that the file names or describes.
     #[must_use]
     pub fn camera(&self) -> &SceneCamera {
         &self.camera
     }
 
-    /// Of all that is drawn by lot: the file's, else 1.
+    /// Seed of all randomness: that of the file, or 1.
     #[must_use]
     pub fn seed(&self) -> u64 {
         self.seed.unwrap_or(1)
     }
 
     /// Writes the study into `out`, a folder that is empty or does not exist yet, with a copy of the scene file (`text`).
-    /// `camera`: what [`SceneSpec::camera`] stands for. `progress` is called after each picture with the number done and their
-    /// total. The same file, camera and seed give the same bytes for any number of threads.
+    /// `camera` is the one that [`SceneSpec::camera`] stands for. `progress` is called after each picture with the number that are
+    /// done and the total number. The same file, camera and seed give the same bytes for any number of threads.
     ///
     /// # Errors
-    /// [`SimulateError::Scene`] when parts of the file do not go together, [`SimulateError::SceneCamera`] for a camera that is none,
+    /// [`SimulateError::Scene`] when parts of the file do not go together, [`SimulateError::SceneCamera`] when `camera` is no camera,
     /// [`SimulateError::NotEmpty`] for a folder with something in it, [`SimulateError::Io`] when a file cannot be written.
     pub fn write(
         &self,
@@ -125,7 +125,7 @@ impl SceneSpec {
         laid.write(out, progress)
     }
 
-    /// Its sessions, for pictures of this width: every frame can be photographed and asked for the truth without any file.
+    /// The plans of the sessions, for pictures of this width. Every frame can be photographed and gives its truth without any file.
     ///
     /// # Errors
     /// [`SimulateError::Scene`] when parts of the file do not go together.
@@ -135,19 +135,19 @@ impl SceneSpec {
         Ok((0..self.sessions.len()).map(|number| planner.plan(number)).collect())
     }
 
-    /// Plates, bowls and boxes in their order.
+    /// Plates, bowls and boxes, in this order.
     fn containers(&self) -> impl Iterator<Item = &Container> {
         let plates = self.plates.iter().map(|plate| &plate.0);
         plates.chain(self.bowls.iter().map(|bowl| &bowl.0)).chain(self.boxes.iter().map(|each| &each.0))
     }
 
-    /// What of a session is on the table, with its place among the containers.
+    /// The containers that are on the table of a session, with their indices among all containers.
     fn served<'a>(&'a self, session: &'a Session) -> Vec<(usize, &'a Container)> {
         let is_served = |each: &Container| session.objects.as_ref().is_none_or(|names| names.contains(&each.name));
         self.containers().enumerate().filter(|(_, each)| is_served(each)).collect()
     }
 
-    /// Whether all of it goes together.
+    /// Refuses a file whose parts do not go together.
     fn check(&self) -> Result<(), SimulateError> {
         if self.schema_version != SCENE_SCHEMA_VERSION {
             let got = self.schema_version;
@@ -172,7 +172,7 @@ impl SceneSpec {
         })
     }
 
-    /// What a session asks for and cannot have.
+    /// The fault of a session that asks for things that it cannot have; none where it has no fault.
     fn fault_of(&self, session: &Session) -> Option<String> {
         let name = &session.name;
         let names: Vec<&str> = self.containers().map(|each| each.name.as_str()).collect();
@@ -196,7 +196,7 @@ impl SceneSpec {
     }
 }
 
-/// A name that is there twice. Upper and lower case are one, since some file systems say so.
+/// A name that is there twice. Upper and lower case are the same, as on some file systems.
 fn twice<'a>(names: &[&'a str]) -> Option<&'a str> {
     let same = |a: &str, b: &str| a.to_lowercase() == b.to_lowercase();
     names
@@ -206,7 +206,7 @@ fn twice<'a>(names: &[&'a str]) -> Option<&'a str> {
         .map(|(_, name)| *name)
 }
 
-/// Two containers of which the circles that fit into their outlines overlap.
+/// The names of two containers that stand in one another: the circles that fit into their outlines overlap.
 fn standing_in_one_another<'a>(served: &[(usize, &'a Container)]) -> Option<[&'a str; 2]> {
     let meet = |a: &Container, b: &Container| (a.at_mm - b.at_mm).norm() < 0.5 * (a.ware.width_mm + b.ware.width_mm);
     served.iter().enumerate().find_map(|(at, (_, a))| {

@@ -1,4 +1,4 @@
-//! Values that are checked where they stand, so that an error tells the line.
+//! Values that are checked where they stand in the file, so that an error names the line.
 
 use std::fmt::{Display, Formatter};
 use std::marker::PhantomData;
@@ -50,13 +50,13 @@ impl<'de, const LOW: u32, const HIGH: u32> Deserialize<'de> for Count<LOW, HIGH>
     }
 }
 
-/// Shares in per cent.
+/// A share in per cent.
 pub(super) type Percent = Within<0, 100>;
 /// A coordinate on the table, in mm.
 pub(super) type Place = Within<-2000, 2000>;
 /// A turn, in degrees.
 pub(super) type Turn = Within<-360, 360>;
-/// A colour: red, green and blue, each a share of the light that is sent back.
+/// A colour: the shares of red, green and blue light that are sent back.
 pub(super) type Colour = [Within<0, 1>; 3];
 
 pub(super) fn rgb(colour: Colour) -> Rgb {
@@ -71,17 +71,17 @@ pub(super) fn point_above([x, y, z]: [Place; 3]) -> Point3<f64> {
     Point3::new(x.get(), y.get(), z.get())
 }
 
-/// The value, or what holds without it.
+/// The value, or the default where there is none.
 pub(super) fn or<const LOW: i32, const HIGH: i32>(value: Option<Within<LOW, HIGH>>, default: f64) -> f64 {
     value.map_or(default, Within::get)
 }
 
-/// Per cent as a share.
+/// A share from 0 to 1.
 pub(super) fn share<const LOW: i32, const HIGH: i32>(percent: Within<LOW, HIGH>) -> f64 {
     percent.get() / 100.0
 }
 
-/// A name that can stand in labels and in the names of folders.
+/// A name that labels and the names of folders can hold.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Name(pub String);
 
@@ -102,7 +102,7 @@ impl<'de> Deserialize<'de> for Name {
     }
 }
 
-/// Something made of what stands in the file, which is refused there if that makes no sense.
+/// A value that is made from fields of the file, with an error at their place where they make no sense together.
 #[derive(Debug, Clone)]
 pub(super) struct Checked<F, T>(pub T, PhantomData<F>);
 
@@ -115,8 +115,8 @@ where
     }
 }
 
-/// Checks while the table is visited: of an error that arises later, a file's reader would know no better place than the whole
-/// list of tables.
+/// A visitor that makes the value while the table is visited. An error that arises later would have no better place than the
+/// whole list of tables.
 struct CheckedVisitor<F, T>(PhantomData<(F, T)>);
 
 impl<'de, F: Deserialize<'de>, T: TryFrom<F>> Visitor<'de> for CheckedVisitor<F, T>

@@ -1,4 +1,4 @@
-//! How the sensors err.
+//! Errors of the sensors of a scene file.
 
 use serde::Deserialize;
 

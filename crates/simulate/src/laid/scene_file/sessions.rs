@@ -1,4 +1,4 @@
-//! Sessions: what is on the table, and where the camera looks from.
+//! Sessions of a scene file: the containers on the table, and the poses of the camera.
 
 use nalgebra::{Point2, Rotation2, Vector2};
 use serde::Deserialize;
@@ -12,7 +12,7 @@ type Roll = Within<-60, 60>;
 type Height = Within<100, 2000>;
 type Images = Count<1, 2000>;
 
-/// Seconds from one picture to the next, where the file does not say.
+/// Seconds from one picture to the next, where the file gives none.
 const PERIOD_S: f64 = 10.0;
 const IMAGES: u32 = 24;
 
@@ -21,44 +21,45 @@ const IMAGES: u32 = 24;
 pub(super) struct Session {
     pub name: String,
     pub participant: Option<String>,
-    /// Names of what is on its table; none where that is everything.
+    /// Names of the containers on its table; none where all containers are.
     pub objects: Option<Vec<String>>,
-    /// Whether its images show them one after the other.
+    /// Whether its images show the containers one after the other.
     pub one_at_a_time: bool,
     pub period_s: f64,
-    /// Shares of its images before anything is served, and after it is taken away.
+    /// Share of its images before the meal is served, and share after it is taken away.
     pub bare: [f64; 2],
     /// Share of the food that is gone in the last image.
     pub eaten: f64,
     pub view: View,
 }
 
-/// Where the camera looks from.
+/// The motion of the camera.
 #[derive(Debug, Clone)]
 pub(super) enum View {
-    /// It never moves; so many images.
+    /// It never moves. The number of images, where the file gives it.
     Stand(Stance, Option<u32>),
-    /// One image each.
+    /// It has these poses, with one image at each.
     Poses(Vec<Stance>),
-    /// A head that wanders.
+    /// It is on a head that wanders.
     Head(Head),
 }
 
-/// A pose and a place.
+/// A pose of the camera, and its place over the table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stance {
     pub head: HeadPose,
     pub stand: (Point2<f64>, f64),
 }
 
-/// A head that wanders.
+/// The walk of a head that wanders.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Head {
     pub walk: Walk,
     pub images: u32,
     pub sway_deg: f64,
-    /// How far it moves about its place over the table, and turns.
+    /// Greatest distance from its place over the table, along X and along Y.
     pub shift_mm: f64,
+    /// Greatest turn about Z, to either side.
     pub yaw_rad: f64,
 }
 
@@ -184,7 +185,7 @@ impl TryFrom<HeadFields> for Head {
     }
 }
 
-/// Both ends of a range, the smaller one first.
+/// The two ends of a range; the default where the file gives none. Fails where the first end is the larger one.
 fn range<const LOW: i32, const HIGH: i32>(
     key: &str,
     given: Option<[Within<LOW, HIGH>; 2]>,
@@ -231,7 +232,7 @@ impl TryFrom<SessionFields> for Session {
 }
 
 impl Session {
-    /// Number of images when so many objects are on the table.
+    /// The number of images where so many objects are on the table.
     pub(super) fn images(&self, objects: usize) -> usize {
         match &self.view {
             View::Stand(_, Some(images)) => *images as usize,

@@ -1,4 +1,4 @@
-//! Surfaces: textures of tables and of tableware.
+//! Surfaces of a scene file: the textures of tables and of tableware.
 
 use nalgebra::Point2;
 use serde::Deserialize;
@@ -56,7 +56,7 @@ pub(super) struct Speckled {
 #[serde(deny_unknown_fields)]
 pub(super) struct Printed {
     colours: [Colour; 2],
-    /// Inner and outer radius of up to two rings.
+    /// Inner and outer radius of each of up to two rings.
     #[serde(default)]
     rings_mm: Vec<[Within<0, 1000>; 2]>,
     motifs: Option<Motifs>,
@@ -88,7 +88,7 @@ impl TryFrom<TextureFields> for Surface {
 }
 
 impl Surface {
-    /// The texture; `seed` decides where its grain runs.
+    /// The texture with a random grain that follows from `seed`.
     fn texture(&self, seed: u64) -> Texture {
         match &self.0 {
             TextureFields::Plain(plain) => Texture::Plain(rgb(plain.colour)),
@@ -112,17 +112,17 @@ impl Surface {
         }
     }
 
-    /// Whether it is drawn about an axis, which only round things have.
+    /// Whether the texture lies about an axis, which only round things have.
     pub(super) fn is_printed(&self) -> bool {
         matches!(self.0, TextureFields::Printed(_))
     }
 
-    /// Share of the light that it mirrors unless the file says so: none for cloth.
+    /// Share of the light that it mirrors, in per cent, where the file gives none. It is 0 for cloth.
     fn gloss_pct(&self) -> f64 {
         if matches!(self.0, TextureFields::Cloth(_)) { 0.0 } else { GLAZE_PCT }
     }
 
-    /// The surface.
+    /// The material of the surface.
     pub(super) fn material(&self, gloss_pct: Option<Percent>, seed: u64) -> Material {
         Material { gloss: or(gloss_pct, self.gloss_pct()) / 100.0, ..Material::matt(self.texture(seed)) }
     }
@@ -167,7 +167,7 @@ impl TableSpec {
         self.texture.0.material(self.gloss_pct, seed)
     }
 
-    /// Half its length and depth, and its middle, where the file says so.
+    /// Half of the table's length and depth, and its middle: those of the file, or those given where the file has none.
     pub(super) fn place(&self, (half, middle): ([f64; 2], Point2<f64>)) -> ([f64; 2], Point2<f64>) {
         let half = self.size_mm.map_or(half, |size| size.map(|side| 0.5 * side.get()));
         (half, self.middle_mm.map_or(middle, point))

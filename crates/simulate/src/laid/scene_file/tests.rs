@@ -1,4 +1,4 @@
-//! What a scene file may say, and what comes of it.
+//! Tests of scene files that are accepted, and of the studies that they make.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -20,7 +20,7 @@ fn scene(parts: &str) -> SceneSpec {
     read(&format!("{HEAD}{parts}")).unwrap()
 }
 
-/// The line on which an error is told, from 1, and what it says.
+/// The line of an error, counted from 1, and its text.
 fn refused(text: &str) -> (usize, String) {
     let error = read(text).unwrap_err();
     let line = text[..error.span().unwrap().start].matches('\n').count() + 1;
@@ -63,7 +63,7 @@ fn sizes_are_those_of_the_file() {
     }
 }
 
-/// Straight down onto a rectangle: the top is met at the rim's height just inside of its outline, and the table outside.
+/// A ray straight down onto a rectangle meets the top at the rim's height just inside of the outline, and the table outside.
 #[test]
 fn rectangles_stand_where_they_should() {
     let scene = scene(&format!(
@@ -114,7 +114,7 @@ fn meals_are_served_eaten_and_taken_away() {
     let frames = frames(&scene).remove(0);
     let is_bare: Vec<bool> = frames.iter().map(|frame| frame.placed.is_empty()).collect();
     assert!(is_bare.iter().enumerate().all(|(at, bare)| *bare != (4..32).contains(&at)), "{is_bare:?}");
-    // Bodies of an image: with or without a hand.
+    // The number of bodies of an image depends on whether there is a hand.
     let numbers: std::collections::BTreeSet<usize> =
         frames[4..32].iter().map(|frame| frame.world.bodies.len()).collect();
     assert_eq!(numbers.len(), 2, "{numbers:?}");
@@ -134,7 +134,7 @@ fn meals_are_served_eaten_and_taken_away() {
     assert!((frames[1].time_s - frames[0].time_s - 12.0).abs() < 1e-9);
 }
 
-/// The whole study: the same for any number of threads, another for another seed, and its sensors err as told.
+/// The whole study is the same for any number of threads, and another one for another seed. Its sensors err as the file says.
 #[test]
 fn a_study_follows_from_the_file_and_the_seed() {
     let text = include_str!("../../../../../data-samples/scenes/kitchen.toml");
@@ -174,8 +174,8 @@ fn a_study_follows_from_the_file_and_the_seed() {
     );
 }
 
-/// Whatever a file says that is accepted can be planned, and is finite. Sizes are drawn from all that single keys allow, so many
-/// a file is refused, but not most.
+/// Every file that is accepted can be planned, and its numbers are finite. Sizes are drawn from all values that single keys allow,
+/// so many of the files are refused, but not most of them.
 #[test]
 fn what_is_accepted_can_be_made() {
     use rand::{Rng, SeedableRng};

@@ -1,4 +1,4 @@
-//! What else lies on the table, and hands.
+//! Other things on the table of a scene file, and hands.
 
 use rand::Rng;
 use serde::Deserialize;
@@ -29,7 +29,7 @@ pub(super) struct CutlerySpec {
     kind: Utensil,
     /// End of the handle.
     at_mm: [Place; 2],
-    /// Of what it lies on.
+    /// Height of the surface that it lies on.
     level_mm: Option<Within<0, 500>>,
     turn_deg: Option<Turn>,
     rise_deg: Option<Within<-90, 90>>,
@@ -64,7 +64,7 @@ pub(super) struct HandFields {
     seen_pct: Option<Percent>,
 }
 
-/// A hand, and how often it is there.
+/// A hand, and the share of images in which it is there.
 #[derive(Debug, Clone)]
 pub(super) struct HandSpec {
     hand: Hand,
@@ -123,7 +123,7 @@ impl TryFrom<HandFields> for HandSpec {
 }
 
 impl HandSpec {
-    /// The hand, if it is there this time. Draws as often either way.
+    /// The bodies of the hand, if it is there this time. It draws the same number of random numbers either way.
     pub(super) fn bodies(&self, random: &mut impl Rng) -> Vec<Body> {
         let (is_there, seed) = (random.random_bool(self.seen), random.random());
         if is_there { Hand { seed, ..self.hand }.bodies() } else { Vec::new() }

@@ -7,31 +7,33 @@ use crate::world::{Body, Form, Material, Rgb, Texture};
 
 const STEEL: Rgb = [0.5, 0.5, 0.52];
 
-/// What is at the end of the handle.
+/// A utensil, by the part at the end of its handle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(in crate::laid) enum Utensil {
-    /// A hollow.
+    /// A spoon, with a hollow.
     Spoon,
-    /// Four prongs.
+    /// A fork, with four prongs.
     Fork,
-    /// A blade.
+    /// A knife, with a blade.
     Knife,
 }
 
-/// A handle that lies on what is below it, with a blade, prongs or a hollow.
+/// A piece of cutlery: a handle with a blade, prongs or a hollow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::laid) struct Cutlery {
     pub utensil: Utensil,
     /// End of the handle.
     pub at_mm: Point3<f64>,
-    /// Direction of the handle: from X to Y, and its rise.
+    /// Direction of the handle about Z, from X to Y.
     pub turn_rad: f64,
+    /// Rise of the handle above the horizontal.
     pub rise_rad: f64,
 }
 
 impl Cutlery {
-    pub fn drawn(random: &mut impl Rng, at_mm: Point3<f64>, turn_rad: f64, rise_rad: f64) -> Self {
+    /// A random piece of cutlery at a place.
+    pub fn random(random: &mut impl Rng, at_mm: Point3<f64>, turn_rad: f64, rise_rad: f64) -> Self {
         let utensil = match random.random_range(0..3) {
             0 => Utensil::Spoon,
             1 => Utensil::Fork,

@@ -1,4 +1,4 @@
-//! Flat things: napkins and telephones.
+//! Napkins and telephones.
 
 use std::f64::consts::PI;
 
@@ -11,16 +11,16 @@ use crate::world::{Body, Form, Material, Rgb, Texture};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::laid) struct Napkin {
     pub at_mm: Point2<f64>,
-    /// Half its sides.
+    /// Half of its sides.
     pub half_mm: [f64; 2],
     pub turn_rad: f64,
     pub colour: Rgb,
-    /// Of its weave.
+    /// Seed of its random weave.
     pub seed: u64,
 }
 
 impl Napkin {
-    pub fn drawn(random: &mut impl Rng, at_mm: Point2<f64>) -> Self {
+    pub fn random(random: &mut impl Rng, at_mm: Point2<f64>) -> Self {
         let colour = [[0.85, 0.83, 0.8], [0.55, 0.12, 0.12], [0.2, 0.3, 0.5]][random.random_range(0..3)];
         let seed = random.random();
         let half_mm = [random.random_range(50.0..85.0), random.random_range(50.0..85.0)];
@@ -40,12 +40,12 @@ impl Napkin {
 pub(in crate::laid) struct Telephone {
     pub at_mm: Point2<f64>,
     pub turn_rad: f64,
-    /// Of its text.
+    /// Seed of its random text.
     pub seed: u64,
 }
 
 impl Telephone {
-    pub fn drawn(random: &mut impl Rng, at_mm: Point2<f64>) -> Self {
+    pub fn random(random: &mut impl Rng, at_mm: Point2<f64>) -> Self {
         let turn_rad = random.random_range(-0.7..0.7);
         Self { at_mm, turn_rad, seed: random.random() }
     }

@@ -18,7 +18,7 @@ const FOODS: [[Rgb; 2]; 6] = [
     [[0.8, 0.78, 0.7], [0.6, 0.5, 0.35]],
 ];
 
-/// Food in a container, filled so far (from 0 to 1): soup or porridge in a bowl, heaps and pieces on a plate.
+/// Random food in a container of which it fills a `share`, from 0 to 1: soup or porridge in a bowl, heaps and pieces on a plate.
 pub(in crate::laid) fn food(random: &mut impl Rng, ware: &Ware, at: Point2<f64>, share: f64) -> Vec<Body> {
     let [z, radius] = ware.filled_mm(share);
     let mut stuff = || {

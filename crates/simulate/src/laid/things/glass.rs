@@ -5,24 +5,24 @@ use rand::Rng;
 
 use crate::world::{Body, Form, Material, Rgb, Texture, Turned};
 
-/// A drinking glass: not one of the containers, but round, and higher than wide.
+/// The outline of a drinking glass. It is none of the containers, but it is round, and higher than it is wide.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vessel {
-    /// Where its axis meets the table.
+    /// The point where its axis meets the table.
     pub at_mm: Point2<f64>,
-    /// Of foot and rim.
+    /// Diameters of foot and rim.
     pub diameters_mm: [f64; 2],
-    /// From the table to its rim.
+    /// Height from the table to the rim.
     pub height_mm: f64,
 }
 
-/// A drinking glass with what it holds, seen through.
+/// A drinking glass that one can see through, with a drink in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::laid) struct Glass {
     pub vessel: Vessel,
     /// Share of its height that is filled.
     pub full: f64,
-    /// Of what it holds: share of the light that goes through.
+    /// Share of the light that goes through the drink.
     pub drink: Rgb,
 }
 
@@ -32,7 +32,8 @@ const JUICE: Rgb = [0.9, 0.55, 0.15];
 const BOTTOM_MM: f64 = 6.0;
 
 impl Glass {
-    pub fn drawn(random: &mut impl Rng, at_mm: Point2<f64>) -> Self {
+    /// A random glass at a place.
+    pub fn random(random: &mut impl Rng, at_mm: Point2<f64>) -> Self {
         let (top, foot) = (random.random_range(30.0..42.0), random.random_range(24.0..30.0));
         let height_mm = random.random_range(85.0..140.0);
         let full = random.random_range(0.3..0.8);

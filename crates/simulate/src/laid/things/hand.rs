@@ -5,22 +5,23 @@ use rand::Rng;
 
 use crate::world::{Body, Form, Material, Rgb, Texture};
 
-/// A hand with an arm behind it: palm, four fingers of three bones each, a thumb.
+/// A hand with an arm behind it. It has a palm, four fingers of three bones each, and a thumb.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::laid) struct Hand {
-    /// Where the fingertips are.
+    /// The place of the fingertips.
     pub tip_mm: Point3<f64>,
-    /// Where the elbow is.
+    /// The place of the elbow.
     pub elbow_mm: Point3<f64>,
     pub skin: Rgb,
-    /// How far the fingers are bent, radians per bone.
+    /// The bend of the fingers, in radians per bone.
     pub curl: f64,
-    /// Of the skin.
+    /// Seed of the random pattern of the skin.
     pub seed: u64,
 }
 
 impl Hand {
-    pub fn drawn(random: &mut impl Rng, tip_mm: Point3<f64>, elbow_mm: Point3<f64>, skin: Rgb) -> Self {
+    /// A hand with randomly bent fingers.
+    pub fn random(random: &mut impl Rng, tip_mm: Point3<f64>, elbow_mm: Point3<f64>, skin: Rgb) -> Self {
         let seed = random.random();
         Self { tip_mm, elbow_mm, skin, curl: random.random_range(0.1..0.5), seed }
     }

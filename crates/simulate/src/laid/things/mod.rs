@@ -1,5 +1,5 @@
-//! What else lies on a table: glasses, cutlery, hands, napkins, a telephone, food. Each has a form that follows from its sizes,
-//! and a way to draw them by lot.
+//! Other things on a table: glasses, cutlery, hands, napkins, a telephone, food. Each has a form that follows from its sizes, and
+//! a function that draws a random one.
 
 mod cutlery;
 mod flat;
@@ -19,7 +19,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{Point2, Point3};
 use rand::Rng;
 
-/// Lays up to so many things around a container, clear of it.
+/// Lays up to `most` random things around a container, clear of it.
 pub(super) fn beside(
     random: &mut impl Rng,
     world: &mut crate::world::World,
@@ -36,18 +36,18 @@ pub(super) fn beside(
         let away = |clear: f64| at + nalgebra::Vector2::new(angle.cos(), angle.sin()) * (radius + clear);
         let bodies = match random.random_range(0..5) {
             0 => {
-                let glass = Glass::drawn(random, away(70.0));
+                let glass = Glass::random(random, away(70.0));
                 vessels.push(glass.vessel);
                 glass.bodies()
             }
-            1 => Napkin::drawn(random, away(125.0)).bodies(),
-            2 => Telephone::drawn(random, away(105.0)).bodies(),
+            1 => Napkin::random(random, away(125.0)).bodies(),
+            2 => Telephone::random(random, away(105.0)).bodies(),
             _ => {
                 let spot = away(30.0);
-                // Along a tangent, so that it does not reach into the container.
+                // It lies along a tangent, so that it does not reach into the container.
                 let turn = angle + 0.5 * PI;
                 let back = nalgebra::Vector2::new(turn.cos(), turn.sin()) * -80.0;
-                Cutlery::drawn(random, Point3::new(spot.x + back.x, spot.y + back.y, 0.0), turn, 0.0).bodies()
+                Cutlery::random(random, Point3::new(spot.x + back.x, spot.y + back.y, 0.0), turn, 0.0).bodies()
             }
         };
         world.bodies.extend(bodies);

@@ -58,7 +58,7 @@ fn counts_and_progress_agree_with_the_files() {
     assert_eq!(marks, summary.mark_files);
 }
 
-/// What the printed rows give overall, worked out apart from this program.
+/// The overall rows that follow from the printed rows were computed apart from this program.
 #[test]
 fn expected_overall_rows() {
     let (_keep, root) = study(Options::default().seed);
@@ -94,7 +94,7 @@ fn study_toml_names_objects_and_files_that_exist() {
         for object in table["objects"].as_array().unwrap() {
             assert!(known.contains(object.as_str().unwrap()), "{object}");
         }
-        // The same table as the model reads it, with the printed numbers in place of the names of their files.
+        // This is the same table as the model reads it, with the printed numbers in place of the names of their files.
         let mut spec = table.as_table().unwrap().clone();
         let printed = spec.remove("printed").unwrap();
         for file in ["rows", "summaries"] {

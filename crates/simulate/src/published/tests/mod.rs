@@ -1,4 +1,4 @@
-//! The study as written, read back without the code that wrote it.
+//! Tests of the study as it is read back, without the code that wrote it.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod files;

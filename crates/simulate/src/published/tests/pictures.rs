@@ -6,7 +6,7 @@ use super::*;
 use crate::render::Renderer;
 use crate::scene::{self, Part, Ray};
 
-/// What the picture of a shot shows at a pixel.
+/// The part that the picture of a shot shows at a pixel.
 fn part_at(camera: &Camera, shot: &plan::ShotPlan, pixel: Point2<f64>) -> Part {
     let direction = shot.pose.world_from_camera() * camera.ray_through(pixel).unwrap();
     shot.scene.seen_along(&Ray { origin: Point3::new(0.0, 0.0, shot.pose.camera_height_mm()), direction }).0
@@ -45,7 +45,7 @@ fn bench_marks_end_on_the_drawn_edges() {
     }
 }
 
-/// The same view through a camera with pictures of 64 x 48 px.
+/// A camera with the same field of view and pictures of 64 x 48 px.
 fn tiny(camera: &Camera) -> Camera {
     let [width, height] = camera.size_px().map(f64::from);
     let [fx, fy] = camera.focal_px();
@@ -69,7 +69,7 @@ fn a_rendered_plate_is_as_wide_as_its_mark() {
         view.pixel_of(Point3::new(plate.center_mm.x + side * plate.half_width_mm, plate.center_mm.y, 0.0)).unwrap()
     };
     let (left, right) = (end(-1.0), end(1.0));
-    // Blue tells the pale plate from the brown table.
+    // The blue channel tells the pale plate from the brown table.
     let is_plate = |x: u32| picture.rgb[3 * (left.y.round() as usize * 64 + x as usize) + 2] > 130;
     let drawn: Vec<u32> = (0..64).filter(|&x| is_plate(x)).collect();
     let covered = f64::from(drawn[0])..=f64::from(drawn[drawn.len() - 1]);
@@ -92,8 +92,8 @@ fn jpeg_pictures_decode_to_what_was_drawn() {
     assert!(mean < 6.0, "mean difference {mean} levels");
 }
 
-/// Seen so steeply, the printed height of the large bowl at 20 cm and 64 degrees leaves no place where its marks agree
-/// with a whole bowl in the picture; README.md says so.
+/// The large bowl at 20 cm and 64 degrees is seen so steeply that its printed height leaves no place where its marks agree with
+/// a whole bowl in the picture. README.md says so.
 #[test]
 fn bowls_are_whole_in_their_pictures_but_for_one() {
     let camera = camera().unwrap();

@@ -1,6 +1,6 @@
 use super::*;
 
-/// Samples of all packets of one sensor as (POSIX time, counts per channel), decoded by hand as the profile says.
+/// The samples of all packets of one sensor as (POSIX time, counts per channel), decoded by hand as the profile says.
 fn decode(session: &Path, prefix: &str, channels: usize) -> Vec<(f64, Vec<i16>)> {
     let mut samples = Vec::new();
     for file in ["0001", "0002"] {
@@ -31,12 +31,12 @@ fn mean(samples: &[&[i16]], channel: usize) -> f64 {
     samples.iter().map(|counts| f64::from(counts[channel])).sum::<f64>() / samples.len() as f64
 }
 
-/// Pitch of the camera in degrees: gravity's direction, plus the mount's 21 degrees.
+/// The pitch of the camera in degrees, which is that of gravity plus the mount offset of 21 degrees.
 fn camera_pitch_deg(samples: &[&[i16]]) -> f64 {
     (-mean(samples, 2)).atan2(-mean(samples, 1)).to_degrees() + 21.0
 }
 
-/// Root mean square departure from the mean, all axes together, in mg.
+/// The root mean square of the departures from the mean, over all axes together, in mg.
 #[expect(clippy::cast_precision_loss, reason = "a few hundred samples")]
 fn motion_mg(samples: &[&[i16]]) -> f64 {
     let square = |axis: usize| {

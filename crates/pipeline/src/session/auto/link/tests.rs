@@ -1,8 +1,8 @@
 use model::UtcNs;
 
 use super::*;
-use crate::rims::{HeightSource, RimHeight};
 use crate::session::auto::appearance::Appearance;
+use rims::{HeightSource, RimHeight};
 
 const CAMERA_MM: f64 = 420.0;
 

@@ -1,4 +1,4 @@
-//! What is wrong with a scene file is told, and where.
+//! Tests of scene files that are refused, with a message that says what is wrong and where.
 
 use super::*;
 

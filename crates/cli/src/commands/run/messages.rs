@@ -1,0 +1,40 @@
+//! The messages of `run` about the marks and recordings that it also writes.
+
+use std::path::Path;
+
+use pipeline::{Annotated, MarksWritten, NotAnnotated};
+
+use crate::commands::print_message;
+use crate::logging::LogFormat;
+
+/// Reports how many files of marks there are now, and how many were left because somebody has changed them.
+pub fn print_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
+    let MarksWritten { files, left } = written;
+    let place = folder.join("auto");
+    if format == LogFormat::Json {
+        tracing::info!(files, left, "marks of rims that were found, in {}", place.display());
+        return;
+    }
+    print_message(&format!("marks of rims that were found: {files} files for LabelMe in {}\n", place.display()));
+    if left > 0 {
+        print_message(&format!(
+            "{left} more differ from what would be written, and were left as they are\n  -> remove those that are to be written anew\n"
+        ));
+    }
+}
+
+/// Reports how many recordings for viewers there are now, and which sessions have none.
+pub fn print_annotated(annotated: &Annotated, format: LogFormat) {
+    let Annotated { folder, made, kept, failed } = annotated;
+    if format == LogFormat::Json {
+        for NotAnnotated { session, fact } in failed {
+            tracing::warn!(session, "no annotated recording: {fact}");
+        }
+        tracing::info!(made, kept, failed = failed.len(), "annotated recordings, in {}", folder.display());
+        return;
+    }
+    print_message(&format!("annotated recordings: {made} written, {kept} unchanged in {}\n", folder.display()));
+    for NotAnnotated { session, fact } in failed {
+        print_message(&format!("session '{session}' has none: {fact}\n"));
+    }
+}

@@ -1,0 +1,8 @@
+//! The height of a rim above the table, from what is seen below it and within it.
+
+mod floor;
+mod heights;
+mod raster;
+mod wall;
+
+pub(crate) use heights::{Heights, of_rim};
