@@ -1,5 +1,7 @@
 //! The documents agree with the files that they speak of.
 
+use std::path::Path;
+
 use crate::support::{published_bench, root, run, stdout};
 
 fn text(file: &str) -> String {
@@ -29,37 +31,49 @@ fn the_simulate_document_has_the_columns_of_the_truth() {
     assert!(text("docs/simulate.md").contains(&expected), "copy into docs/simulate.md:\n{expected}");
 }
 
-/// Links to files of the repository, in every document of the front door.
+/// Links to files of the repository and to sections in them, in every document of the root and of docs/.
 #[test]
 fn links_lead_somewhere() {
     let mut checked = 0;
-    for document in [
-        "README.md",
-        "ARCHITECTURE.md",
-        "CONTRIBUTING.md",
-        "docs/accuracy.md",
-        "docs/glossary.md",
-        "docs/study.md",
-        "docs/uncertainty.md",
-        "docs/calibration.md",
-        "docs/devices.md",
-        "docs/inspect.md",
-        "docs/marks.md",
-        "docs/rims.md",
-        "docs/report.md",
-        "docs/viewers.md",
-        "docs/simulate.md",
-    ] {
-        let folder = root().join(document).parent().unwrap().to_owned();
-        for link in text(document).split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link) {
-            let file = link.split('#').next().unwrap();
-            if !file.is_empty() && !file.contains("://") {
-                assert!(folder.join(file).exists(), "{document} links to {link}");
-                checked += 1;
+    for document in documents() {
+        let here = text(&document);
+        let folder = Path::new(&document).parent().unwrap().to_owned();
+        for link in here.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link) {
+            if link.contains("://") {
+                continue;
             }
+            let (file, section) = link.split_once('#').unwrap_or((link, ""));
+            let target = folder.join(file);
+            assert!(file.is_empty() || root().join(&target).exists(), "{document} links to {link}");
+            if !section.is_empty() {
+                let there = if file.is_empty() { here.clone() } else { text(target.to_str().unwrap()) };
+                assert!(anchors(&there).any(|anchor| anchor == section), "{document} links to {link}");
+            }
+            checked += 1;
         }
     }
-    assert!(checked > 10);
+    assert!(checked > 100, "{checked} links");
+}
+
+/// The documents of the root and of docs/, relative to the root.
+fn documents() -> Vec<String> {
+    let names = |folder: &str| {
+        let entries = std::fs::read_dir(root().join(folder)).unwrap();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect::<Vec<_>>()
+    };
+    let inside = names("docs").into_iter().map(|name| format!("docs/{name}"));
+    inside.chain(names(".")).filter(|name| name.ends_with(".md")).collect()
+}
+
+/// The anchors of a document's headings, as GitHub makes them: lower case, no punctuation, hyphens for spaces.
+fn anchors(text: &str) -> impl Iterator<Item = String> {
+    let headings = text
+        .lines()
+        .filter_map(|line| line.trim_start_matches('#').strip_prefix(' ').filter(|_| line.starts_with('#')));
+    headings.map(|heading| {
+        let kept = heading.to_lowercase().replace(' ', "-");
+        kept.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect()
+    })
 }
 
 /// What the document shows of a session is what `inspect` prints.
