@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# One would expect: grey by the crate image is the grey that the JPEG itself stores, and that OpenCV and Pillow make of it.
+# One would expect: grey by the crate image is the grey that the JPEG itself stores.
 # What happens: `to_luma8` weighs red, green and blue by Rec. 709 (0.2126, 0.7152, 0.0722); JPEG stores its luma by the older
-#   weights of Rec. 601 (0.299, 0.587, 0.114), as those programs do. Pure green differs by 32 levels of 255, pure red by 22.
+#   weights of Rec. 601 (0.299, 0.587, 0.114), which OpenCV and Pillow use too. Pure green differs by 32 levels of 255,
+#   pure red by 22.
 # Why it matters here: a threshold or an edge in grey that is fitted with OpenCV is another one in Rust. Whoever compares greys
 #   must take them from one source.
 # Source: https://github.com/image-rs/image/issues/1554 (open); ITU-T T.871, clause 7

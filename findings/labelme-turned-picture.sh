@@ -6,7 +6,7 @@
 # Why it matters here: marks are pixels of the camera as it stores them. Files of marks for LabelMe need pictures that are not
 #   turned, or must state the size that LabelMe sees.
 # Source: https://github.com/wkentaro/labelme/pull/305 (turning), https://github.com/wkentaro/labelme/issues/1529 (its export)
-# Needs: python3 3.11 (about 730 MB in the temporary folder).
+# Needs: python3 3.11 (about 730 MB in the temporary folder), libgl1 and libglib2.0-0 of Debian for its PyQt5.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -3,6 +3,7 @@
 mod carry_out;
 mod error;
 mod keys;
+mod measure;
 mod options;
 mod plan;
 mod search;

@@ -7,14 +7,14 @@ use std::time::Instant;
 use ingest::{ByteBudget, IngestError, Ingested, SessionSource};
 use model::{Problem, ProblemCode, SessionLog, SessionStatus, Severity, Stage};
 
+use super::measure::MeasureKeys;
 use super::plan::{RunContext, SessionPlan, recording_fingerprint};
 use super::{Halted, keys};
 use crate::inputs::sha256_of_bytes;
 use crate::parallel::unless_panicking;
 use crate::reporter::Reporter;
 use crate::session::{
-    CardProgress, Measuring, Prepared, Recording, SearchError, Searched, failed, finish_status, ingest_problem,
-    read_recording,
+    CardProgress, Prepared, Recording, SearchError, failed, finish_status, ingest_problem, read_recording,
 };
 use crate::stop::Stop;
 use crate::work::{KeptStage, StageOutput, WorkError, WorkFolder};
@@ -99,47 +99,27 @@ impl Worker<'_> {
         let (ingest_key, changed) = self.ingest(plan, &prepared, log)?;
         let signals_key = keys::signals_key(self.context.study, self.context.program, &ingest_key)?;
         let parts = self.context.measure_parts(plan.dir, &prepared, &signals_key);
-        let fingerprint = parts.fingerprint(plan.dir)?.settled();
-        let measure_key = parts.key(plan.dir)?;
-        let search_key = parts.search_key(plan.dir)?;
+        let keys = MeasureKeys {
+            fingerprint: parts.fingerprint(plan.dir)?.settled(),
+            measure: parts.key(plan.dir)?,
+            search: parts.search_key(plan.dir)?,
+        };
         let is_kept = |kept: &Option<_>, key: &str| {
             kept.as_ref().is_some_and(|stage: &KeptStage| stage.key == key) && !self.force
         };
         let signals_kept = is_kept(&plan.kept.signals, &signals_key);
         if changed.is_none()
             && signals_kept
-            && is_kept(&plan.kept.measure, &measure_key)
+            && is_kept(&plan.kept.measure, &keys.measure)
             && let Some(status) = plan.kept.status.clone()
         {
-            self.work.state.touch(&plan.dir.name, Stage::Measure, fingerprint.as_deref())?;
+            self.work.state.touch(&plan.dir.name, Stage::Measure, keys.fingerprint.as_deref())?;
             return Ok(status);
         }
         self.begin(plan, stage, Stage::Signals);
         let recording = self.signals(plan, &prepared, &signals_key, signals_kept, log)?;
         self.begin(plan, stage, Stage::Measure);
-        let is_whole = recording.is_whole() && changed.is_none();
-        if !is_whole {
-            self.work.state.touch(&plan.dir.name, Stage::Ingest, None)?;
-        }
-        let start = Instant::now();
-        let auto = self.search(plan, &prepared, &recording, search_key.as_deref())?;
-        let searched = search_key.filter(|_| is_whole).map(|key| Searched { key, problems: auto.problems.clone() });
-        let (study, reporter) = (self.context.study, self.reporter);
-        let measuring = Measuring { study, dir: plan.dir, prepared: &prepared, is_bench: false, reporter };
-        let mut output = measuring.measure(recording, auto);
-        output.searched = searched;
-        output.status.problems.extend(changed);
-        finish_status(&mut output, self.context.study, &self.work.mcap_dir);
-        log.measure_s = Some(start.elapsed().as_secs_f64());
-        let kept = StageOutput {
-            key: if is_whole && !has_unread_marks(&output.status) { &measure_key } else { "" },
-            fingerprint,
-            seconds: start.elapsed().as_secs_f64(),
-            output: &serde_json::to_string(&output)?,
-            status: Some(&output.status),
-        };
-        self.work.state.keep(&plan.dir.name, Stage::Measure, &kept)?;
-        Ok(output.status)
+        self.measure(plan, &prepared, recording, keys, changed, log)
     }
 
     fn begin(&self, plan: &SessionPlan<'_>, stage: &Cell<Stage>, begun: Stage) {
@@ -269,11 +249,6 @@ impl Worker<'_> {
     pub(super) fn mcap(&self, plan: &SessionPlan<'_>) -> PathBuf {
         self.work.mcap(&plan.dir.name)
     }
-}
-
-/// Whether marks could not be read. They may be readable the next time, and nothing would tell them from those of now.
-fn has_unread_marks(status: &SessionStatus) -> bool {
-    status.problems.iter().any(|problem| problem.code == ProblemCode::MarksUnreadable)
 }
 
 fn ingest_interruption(session: &str, error: IngestError) -> Interruption {
