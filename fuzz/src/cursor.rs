@@ -46,7 +46,7 @@ impl<'b> Cursor<'b> {
         self.rest.is_empty()
     }
 
-    /// What is left.
+    /// The bytes that are left.
     pub fn rest(self) -> &'b [u8] {
         self.rest
     }

@@ -1,4 +1,4 @@
-//! What a picture says of itself: header, extent, EXIF time, time in its name. Input: the file; or, as text, a pattern and a
+//! The facts in the file of a picture: header, extent, EXIF time, time in its name. Input: the file; or, as text, a pattern and a
 //! name, each on a line.
 
 use ingest::parse::image_extent::{ImageDamage, extent};

@@ -188,7 +188,7 @@ fn a_session_camera_needs_its_own_marks_camera_where_the_study_has_one() {
     assert!((of("own") - of("good")).abs() < 1e-9);
 }
 
-/// What goes wrong is in the results too; it must not carry the paths of the machine.
+/// Problems are in the results too; they must not carry the paths of the machine.
 #[test]
 fn results_with_problems_do_not_depend_on_where_the_study_lies() {
     let bytes = |out: &str| {

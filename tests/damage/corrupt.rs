@@ -1,4 +1,4 @@
-//! What happens to files on cards.
+//! The kinds of damage that are done to files on cards.
 
 use std::ops::Range;
 

@@ -40,7 +40,7 @@ fn that_are_links_out_of_the_card_are_refused() {
 }
 
 impl DamagedStudy {
-    /// What the program says with -v, where the profile of both sessions was changed.
+    /// The output of the program with -v, where the profile of both sessions was changed.
     fn run_with_other_profile(&self) -> String {
         let out = self.folder.path().join("other/results.parquet");
         let arguments = ["-v", "run", self.folder.path().to_str().unwrap(), "--out", out.to_str().unwrap()];

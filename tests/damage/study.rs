@@ -59,7 +59,7 @@ pub struct DamagedStudy {
     out: PathBuf,
 }
 
-/// What a run says of the damaged session.
+/// The status that a run gives the damaged session.
 pub struct Told {
     pub exit: i32,
     pub status: SessionStatus,

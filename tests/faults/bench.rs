@@ -115,7 +115,7 @@ impl Bench {
         Files(std::fs::read(self.out()).unwrap(), std::fs::read(frames).unwrap())
     }
 
-    /// What an undisturbed run of the study as it is now gives, in a work folder of its own.
+    /// The files of an undisturbed run of the study as it is now, in a work folder of its own.
     #[track_caller]
     pub fn undisturbed(&self) -> Files {
         let out = self.path("undisturbed/results.parquet");

@@ -1,4 +1,4 @@
-//! What changes between two runs is done again, and nothing else.
+//! A run does again only what has changed since the run before.
 
 use std::fs::{File, FileTimes};
 

@@ -1,4 +1,4 @@
-//! What goes wrong around a run: it is killed, stopped, run twice, out of space, its files change or break. Nothing is lost,
+//! Faults around a run: it is killed, stopped, run twice, out of space, its files change or break. Nothing is lost,
 //! nothing is half-written, and the next run gives what an undisturbed one would have given, to the byte.
 
 mod bench;

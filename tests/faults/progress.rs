@@ -1,4 +1,4 @@
-//! What a run says while it is at work, and at its end.
+//! The messages of a run while it is at work, and at its end.
 #![cfg(debug_assertions)]
 
 use super::Bench;

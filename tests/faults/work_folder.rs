@@ -1,4 +1,4 @@
-//! What is kept between runs is damaged, lost, or of another program.
+//! The state between runs is damaged, lost, or of another program.
 
 use super::Bench;
 use super::bench::flip_byte;

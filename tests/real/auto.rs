@@ -6,7 +6,7 @@ use super::rims::{Labelled, labelled};
 use super::{camera_file, number, point, summary};
 use crate::support::{assert_exit, real_data, run, stdout};
 
-/// What `measure --auto` tells of a picture.
+/// The output of `measure --auto` for a picture.
 fn auto(picture: &str, camera: &str, pose: [f64; 3], more: &[String]) -> Vec<Value> {
     let folder = tempfile::tempdir().unwrap();
     let camera_path = folder.path().join("cam.toml");

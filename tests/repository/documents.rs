@@ -76,7 +76,7 @@ fn anchors(text: &str) -> impl Iterator<Item = String> {
     })
 }
 
-/// What the document shows of a session is what `inspect` prints.
+/// The document shows of a session exactly the text that `inspect` prints.
 #[test]
 fn the_sample_of_inspect_is_what_it_prints() {
     let output = run(["inspect", published_bench().to_str().unwrap()]);

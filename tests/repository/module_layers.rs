@@ -139,7 +139,7 @@ fn broken_layers(layers: Layers, source: &Source) -> Vec<String> {
     used.iter().filter_map(broken).collect()
 }
 
-/// What is named right after `root` in `code`: one name, or the first ones of a group in braces.
+/// The names that stand right after `root` in `code`: one name, or the first ones of a group in braces.
 fn names_after(root: &str, code: &str) -> BTreeSet<String> {
     let is_part = |c: char| c.is_alphanumeric() || c == '_';
     let name_of = |text: &str| -> String { text.trim_start().chars().take_while(|c| is_part(*c)).collect() };

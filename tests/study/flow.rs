@@ -1,4 +1,4 @@
-//! What became of the images, as a user sees it.
+//! The fate of the images, as a user sees it.
 
 use std::fs;
 

@@ -19,7 +19,7 @@ const CAMERA: &str = "schema_version = 1\nname = \"c\"\nwidth_px = 1000\nheight_
 const OBJECTS: &str = "object,kind,shape,true_diameter_mm\nplate,plate,circle,230.0\n";
 const RADIUS_MM: f64 = 115.0;
 const RANGE_MM: f64 = 480.0;
-/// What the gallery's pictures are reduced by.
+/// The factor by which the gallery's pictures are reduced.
 const REDUCED: f64 = 0.64;
 
 fn camera() -> Camera {
@@ -60,7 +60,7 @@ impl Taken {
         }
     }
 
-    /// What a careful person would mark.
+    /// The marks that a careful person would make.
     fn marks(&self) -> Value {
         let rim: Vec<[f64; 2]> = (0..36).map(|i| self.on_rim(10 * i)).collect();
         label_me(vec![outline("plate/rim", &rim), line("plate/diameter", [self.on_rim(0), self.on_rim(180)])])

@@ -1,4 +1,4 @@
-//! What the tests share: running the binary, building small studies, finding real photographs.
+//! The parts that tests share: running the binary, building small studies, finding real photographs.
 
 mod study;
 

@@ -82,7 +82,7 @@ impl StudyFolder {
     }
 }
 
-/// What an accelerometer at rest reads (it feels the table's push, upwards) for a camera that looks `pitch_deg` down.
+/// The reading of an accelerometer at rest (it feels the table's push, upwards) for a camera that looks `pitch_deg` down.
 fn at_rest_g(pitch_deg: f64, roll_deg: f64) -> [f64; 3] {
     let (sin_w, cos_w) = pitch_deg.to_radians().sin_cos();
     let (sin_p, cos_p) = roll_deg.to_radians().sin_cos();

@@ -92,7 +92,7 @@ coded_enum! {
 }
 
 impl ProblemCode {
-    /// What a person can do about a problem of this kind. A problem's own remedy says it of the case at hand.
+    /// The remedy: what a person can do about a problem of this kind. A problem's own remedy is about the case at hand.
     #[must_use]
     pub const fn remedy(self) -> &'static str {
         match self {

@@ -8,7 +8,7 @@ pub struct Python {
     child: Child,
     questions: ChildStdin,
     answers: BufReader<ChildStdout>,
-    /// What the script says of itself when it is ready.
+    /// The line that the script prints when it is ready.
     pub says: String,
 }
 

@@ -36,7 +36,7 @@ enum FileLayout {
 }
 
 /// The settings that all streams of a profile share.
-struct Common<'p> {
+struct StreamSettings<'p> {
     rate_hz: f64,
     gap_s: Option<f64>,
     extra: &'p [String],
@@ -45,7 +45,7 @@ struct Common<'p> {
 
 impl Layout {
     pub fn of_acceleration(stream: &AccelerationStream) -> Result<Self, PacketError> {
-        let common = Common {
+        let common = StreamSettings {
             rate_hz: stream.rate_hz,
             gap_s: stream.gap_s,
             extra: &stream.extra,
@@ -63,7 +63,7 @@ impl Layout {
     }
 
     pub fn of_range(stream: &RangeStream) -> Result<Self, PacketError> {
-        let common = Common {
+        let common = StreamSettings {
             rate_hz: stream.rate_hz,
             gap_s: stream.gap_s,
             extra: &stream.extra,
@@ -75,14 +75,14 @@ impl Layout {
         Self::packets(stream.packets.as_ref(), common)
     }
 
-    fn packets(layout: Option<&PacketLayout>, common: Common<'_>) -> Result<Self, PacketError> {
+    fn packets(layout: Option<&PacketLayout>, common: StreamSettings<'_>) -> Result<Self, PacketError> {
         let layout = layout.ok_or_else(|| PacketError::Layout("packets, csv or cwa".to_owned()))?;
         let parser = PacketParser::new(layout, common.extra, common.converter.clone())?;
         let wrap_ns = layout.stamp.wrap_ns();
         Ok(Self::new(FileLayout::Packets(parser), layout.stamp.epoch, wrap_ns, layout.step, &common))
     }
 
-    fn csv(format: CsvFormat, time: &RowTime, values: Vec<String>, common: Common<'_>) -> Self {
+    fn csv(format: CsvFormat, time: &RowTime, values: Vec<String>, common: StreamSettings<'_>) -> Self {
         let epoch = match &time.format {
             Some(format) if !names_zone(format) => Epoch::Local,
             Some(_) => Epoch::Unix,
@@ -96,11 +96,11 @@ impl Layout {
             extra: common.extra.to_vec(),
             converter: common.converter.clone(),
         };
-        let common = Common { rate_hz: time.rows_per_s.unwrap_or(common.rate_hz), ..common };
+        let common = StreamSettings { rate_hz: time.rows_per_s.unwrap_or(common.rate_hz), ..common };
         Self::new(FileLayout::Csv(layout), epoch, wrap_ns, Step::Nominal, &common)
     }
 
-    fn new(files: FileLayout, epoch: Epoch, wrap_ns: Option<i128>, step: Step, common: &Common<'_>) -> Self {
+    fn new(files: FileLayout, epoch: Epoch, wrap_ns: Option<i128>, step: Step, common: &StreamSettings<'_>) -> Self {
         let gap_s = common.gap_s.unwrap_or(SHORTEST_GAP_S.max(GAP_SAMPLES / common.rate_hz));
         Self { files, epoch, wrap_ns, step, rate_hz: common.rate_hz, gap_s, extra: common.extra.to_vec() }
     }

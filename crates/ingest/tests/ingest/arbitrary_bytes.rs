@@ -1,4 +1,4 @@
-//! What `cargo fuzz` runs for hours, for a moment in every test run: altered files of the corpus through the same entry
+//! The entry points that `cargo fuzz` runs for hours, for a moment in every test run: altered files of the corpus through the same entry
 //! points (`fuzz/src/`). They panic when a promise is broken, so there is nothing to assert here.
 
 use fuzz_targets::TARGETS;

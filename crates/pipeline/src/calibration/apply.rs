@@ -4,7 +4,7 @@ use model::{Estimate, InputSigma, Kind, Method, Quantity, Source, View};
 
 use super::{CalibrationFile, PhysicalEntry};
 
-/// What remains of the pitch error of an accelerometer whose offset a bench has taught. ADXL362 data sheet: 0.5 mg per
+/// The rest of the pitch error of an accelerometer whose offset a bench has taught. ADXL362 data sheet: 0.5 mg per
 /// degree Celsius; 10 degrees between bench and use are 5 mg, or 0.3 degrees.
 const DRIFT_DEG: f64 = 0.3;
 

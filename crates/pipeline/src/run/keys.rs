@@ -1,4 +1,4 @@
-//! What each stage of a session is made from, as one hash.
+//! The key of each stage of a session: one hash of everything that it is made from.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

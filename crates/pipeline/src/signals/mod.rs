@@ -54,7 +54,7 @@ pub struct FrameSignals {
     pub pose: Option<Pose>,
     /// The pose with the range corrected for the sensor's cone, where that was asked for and can be done.
     pub cone_pose: Option<Pose>,
-    /// What else is worth knowing about it.
+    /// Flags: other facts worth knowing about it.
     pub flags: Vec<FrameFlag>,
 }
 

@@ -52,7 +52,7 @@ pub struct Study {
     pub time_zone: jiff::tz::TimeZone,
     /// The sessions by name: those with a card, and those that are only marked.
     pub sessions: Vec<SessionDir>,
-    /// What a bench has taught about the device, where a run is given it.
+    /// The calibration of the device by a bench, where a run is given it.
     pub calibration: Option<CalibrationFile>,
 }
 

@@ -12,7 +12,7 @@ use crate::{Case, Report};
 /// Places of a circle that is to be drawn.
 const PLACES: u32 = 180;
 
-/// What there is to draw of a container: the true circle in the picture, and the points that were found along it.
+/// The drawing of a container: the true circle in the picture, and the points that were found along it.
 pub struct Drawing {
     true_px: Vec<[f64; 2]>,
     /// Centre (world X, Y) and radius of the circle that the rim appears as on the plane Z = 0, in mm.

@@ -76,7 +76,7 @@ struct Judged {
     is_cup: bool,
 }
 
-/// What was found in one picture.
+/// The rims that were found in one picture.
 struct Report {
     cases: Vec<Case>,
     name: String,

@@ -1,4 +1,4 @@
-//! What was found, as tables.
+//! The rims that were found, as tables.
 
 use model::Kind;
 

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 /// Poses of each table.
 const POSES: u32 = 3;
 
-/// What is on a table.
+/// The things on a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Set {
     /// A rectangular plate, and other things.

@@ -1,4 +1,4 @@
-//! What was found, as tables.
+//! The rectangles that were found, as tables.
 
 use aim_batch_rims::SQUARE_FEATURES;
 
@@ -31,7 +31,7 @@ pub struct Judged {
     pub is_right: bool,
 }
 
-/// What was found in one picture.
+/// The rectangles that were found in one picture.
 pub struct Report {
     pub name: String,
     pub cases: Vec<Case>,

@@ -105,7 +105,7 @@ fn colours(picture: &Picture, view: &View, arc: &Arc, angle: f64, span: Span) ->
     let sample = |i: usize| -> Option<[f64; 3]> {
         let mut sum = [0.0; 3];
         for line in &lines {
-            let c = colour(picture, line.at(i)?)?;
+            let c = colour(picture, line.pixel_at(i)?)?;
             sum = [0, 1, 2].map(|k| sum[k] + c[k] / 5.0);
         }
         Some(sum)
@@ -144,7 +144,7 @@ impl Line {
         Self((0..=last).map(pixel_of).collect())
     }
 
-    fn at(&self, sample: usize) -> Option<Point2<f64>> {
+    fn pixel_at(&self, sample: usize) -> Option<Point2<f64>> {
         let (from, to) = (self.0[sample / Self::EVERY]?, self.0[sample / Self::EVERY + 1]?);
         #[expect(clippy::cast_precision_loss, reason = "a few samples")]
         let share = (sample % Self::EVERY) as f64 / Self::EVERY as f64;

@@ -1,4 +1,4 @@
-//! What is damaged is lost, counted, and nothing else.
+//! Damaged blocks are lost and counted, and no others.
 
 use std::io::Read;
 

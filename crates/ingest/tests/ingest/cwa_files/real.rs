@@ -8,7 +8,7 @@ use jiff::tz::TimeZone;
 
 use super::{measured_rate_hz, read, read_timed};
 
-/// What the foreign reader says of a block.
+/// A block as the foreign reader gives it.
 #[derive(Default)]
 struct Decoded {
     time_s: f64,

@@ -1,4 +1,4 @@
-//! What the writer of the tests writes comes back.
+//! The samples that the tests' writer writes come back.
 
 use aim_batch_ingest::parse::cwa::{Block, BlockError, Hardware, Header};
 use proptest::prelude::*;

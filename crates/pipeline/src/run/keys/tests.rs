@@ -11,7 +11,7 @@ use crate::run::plan::RunContext;
 use crate::session::Prepared;
 use crate::study::{MarksSource, Study, StudySpec};
 
-/// What runs again: the ingest of the card and all that follows, the signals and all that follows, the search for rims and the
+/// The stages that run again: the ingest of the card and all that follows, the signals and all that follows, the search for rims and the
 /// measuring, the measuring alone, or nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum From {
@@ -79,7 +79,7 @@ fn bench(adjust: impl FnOnce(&mut StudySpec)) -> Study {
     .unwrap()
 }
 
-/// What is compared for the card, and the keys of signals, search and measuring, of the first session.
+/// The fingerprint of the card, and the keys of signals, search and measuring, of the first session.
 fn keys(study: &Study) -> [String; 4] {
     let dir = &study.sessions[0];
     let context = RunContext::new(study, "program").unwrap();

@@ -41,7 +41,7 @@ fn all_over(n: u32) -> Vec<Vector3<f64>> {
         .collect()
 }
 
-/// What a sensor with these errors reads: the inverse of [`AxisCalibration::apply`].
+/// The reading of a sensor with these errors: the inverse of [`AxisCalibration::apply`].
 fn read_by(sensor: &AxisCalibration, forces: Vec<Vector3<f64>>) -> Vec<Vector3<f64>> {
     forces.into_iter().map(|force| force.component_div(&sensor.scale) - sensor.offset_g).collect()
 }

@@ -10,7 +10,7 @@ fn samples(value: impl Fn(f64) -> Vector3<f64>) -> Vec<(UtcNs, Vector3<f64>)> {
     (0..=n).map(|i| f64::from(i) / RATE_HZ - reach).map(|s| (UtcNs(0).plus_seconds(s), value(s))).collect()
 }
 
-/// What `samples` give when only those for which `keep` holds were recorded.
+/// The gravity that `samples` give when only those for which `keep` holds were recorded.
 fn at_with(value: impl Fn(f64) -> Vector3<f64>, keep: impl Fn(f64) -> bool) -> Option<Gravity> {
     let kept: Vec<_> = samples(value).into_iter().filter(|(t, _)| keep(t.seconds_since(UtcNs(0)))).collect();
     gravity_at(UtcNs(0), &kept, CUTOFF_HZ)
