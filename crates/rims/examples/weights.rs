@@ -65,6 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if let Some(date) = date {
         set.date = date.get(1).ok_or("--write needs the date, YYYY-MM-DD")?.clone();
         set.cases = cases.len();
+        set.refit = "none since".to_owned();
         set.weights = weights.iter().map(|weight| (number(*weight) * 100.0).round() / 100.0).collect();
         let head: String =
             weights_toml().lines().take_while(|line| line.starts_with('#')).map(|l| format!("{l}\n")).collect();

@@ -50,6 +50,8 @@ pub struct FittedSet {
     pub date: String,
     /// The examples that write the cases, with their arguments.
     pub cases_from: String,
+    /// The outcome of the last time that the set was fitted again from those cases.
+    pub refit: String,
     /// Names of the features.
     pub features: Vec<String>,
     /// The number of each feature, in the same order. No unit.

@@ -22,8 +22,6 @@ use aim_batch_rims::{RingPair, ring_pairs};
 
 /// An edge lies along the rim where their radii on the plane Z = 0 differ by less than this, in mm: about half a pixel of 720.
 const ALONG_MM: f64 = 0.6;
-/// The other edge of the pair is off by more than this, in mm.
-const OFF_MM: f64 = 1.2;
 /// The centres of an edge and a rim differ by less than this share of the radius.
 const SAME_CENTER: f64 = 0.05;
 /// A container is in view if so much of its rim is in the picture and seen.
@@ -73,9 +71,6 @@ fn outer_is_the_rim(pair: &RingPair, truth: &Truth, view: &View) -> Option<bool>
         let apart_mm = (x * shrink - truth.center_x_mm).hypot(y * shrink - truth.center_y_mm);
         (apart_mm < SAME_CENTER * radius_mm).then_some((radius * shrink - radius_mm).abs())
     };
-    match (off_mm(pair.inner_mm)?, off_mm(pair.outer_mm)?) {
-        (inner, outer) if outer < ALONG_MM && inner > OFF_MM => Some(true),
-        (inner, outer) if inner < ALONG_MM && outer > OFF_MM => Some(false),
-        _ => None,
-    }
+    let (is_inner, is_outer) = (off_mm(pair.inner_mm)? < ALONG_MM, off_mm(pair.outer_mm)? < ALONG_MM);
+    (is_inner != is_outer).then_some(is_outer)
 }
