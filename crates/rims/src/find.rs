@@ -13,14 +13,14 @@ use crate::rim::Rim;
 use crate::shape::RimShape;
 use crate::squares::squares;
 
-/// Version of what is found. A change of meaning gives another number, and pictures are searched anew.
+/// Version of the search. A change of what it finds gives another number, and pictures are searched anew.
 pub const VERSION: u32 = 3;
-/// Plates and bowls are wider; cups, mugs and drinking glasses are not. A study may set another limit.
+/// The least diameter of plates and bowls, in mm; cups, mugs and drinking glasses are narrower. A study may set another limit.
 pub const LEAST_DIAMETER_MM: f64 = 90.0;
-/// Fewer points do not hold a rim.
+/// The least number of points along a rim: fewer do not fix it.
 pub const LEAST_POINTS: usize = 12;
 
-/// Why rims cannot be looked for.
+/// The reason why rims cannot be looked for.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum RimError {
     /// The picture is not the camera's.
@@ -100,7 +100,7 @@ fn check(picture: &Picture, view: &View) -> Result<(), RimError> {
     Ok(())
 }
 
-/// A circle that was found, followed through the full picture; none where too little of it is seen there.
+/// The rim of a circle that was found, followed through the full picture; none where too little of it is seen there.
 #[expect(clippy::cast_precision_loss, reason = "a small factor")]
 fn in_full(picture: &Picture, view: &View, buckets: &Buckets, found: &Scored, factor: usize) -> Option<Rim> {
     let arc = outer_edge(picture, view, found.arc.clone(), factor);

@@ -13,16 +13,16 @@ use crate::rim_height::{RimHeight, as_judged};
 pub struct Found {
     /// The kind that it looks like.
     pub kind: Kind,
-    /// Its outline. Files say it of rectangles only.
+    /// The shape of its outline. Files state it for rectangles only.
     #[serde(default = "circle", skip_serializing_if = "is_circle")]
     pub shape: Shape,
     /// From 0 to 1: how sure it is that this is the rim of a container.
     pub confidence: f64,
-    /// Length of the rim as it appears.
+    /// Length of the rim in the picture, in pixels.
     pub perimeter_px: f64,
-    /// Its height if it is a bowl's.
+    /// The height of the rim above the table, if it is a bowl's.
     pub height: RimHeight,
-    /// Its height if it is a plate's; none in files of versions that took plates to lie on the table.
+    /// The height of the rim above the table, if it is a plate's; none in files of versions that took plates to lie on the table.
     #[serde(default)]
     pub plate_height: Option<RimHeight>,
 }

@@ -13,19 +13,19 @@ pub struct Rim {
     pub confidence: f64,
     /// The kind that it looks like: plates are flat and large.
     pub kind: Kind,
-    /// How sure that is: natural logarithm of the odds of a plate against a bowl.
+    /// Natural logarithm of the odds of a plate against a bowl.
     pub plate_log_odds: f64,
     /// The place of the rim's centre in the picture.
     pub center_px: Point2<f64>,
     /// Points along it, in order, where the picture shows it; of a rectangle its four corners.
     pub points_px: Vec<Point2<f64>>,
-    /// Length of the rim as it appears.
+    /// Length of the rim in the picture, in pixels.
     pub perimeter_px: f64,
     /// The evidence for it.
     pub evidence: Evidence,
-    /// Its height if it is a bowl's.
+    /// The height of the rim above the table, if it is a bowl's.
     pub height: RimHeight,
-    /// Its height if it is a plate's.
+    /// The height of the rim above the table, if it is a plate's.
     pub plate_height: RimHeight,
     /// Centre (world X, Y) and radius of the circle that it appears as on the plane Z = 0, in mm; of a rectangle a quarter of
     /// the sum of both sides.
@@ -35,14 +35,14 @@ pub struct Rim {
 }
 
 impl Rim {
-    /// Its diameter if it is what it looks like, in mm.
+    /// The diameter of the rim in mm, if it is of the kind that it looks like.
     #[must_use]
     pub fn diameter_mm(&self, view: &View) -> f64 {
         let height = if self.kind == Kind::Plate { self.plate_height } else { self.height };
         2.0 * self.on_table_mm.1 * (1.0 - height.mm / view.pose().camera_height_mm())
     }
 
-    /// Its outline.
+    /// The shape of its outline.
     #[must_use]
     pub fn shape(&self) -> Shape {
         if self.square.is_some() { Shape::Rectangle } else { Shape::Circle }

@@ -1,8 +1,8 @@
-//! Height of a rim above the table, and where it comes from.
+//! The height of a rim above the table, and its source.
 
 use serde::{Deserialize, Serialize};
 
-/// Height of a rim above the table.
+/// The height of a rim above the table, in mm.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RimHeight {
@@ -24,7 +24,7 @@ pub enum HeightSource {
     Foot,
     /// The floor or the well is seen within the rim, about the same axis.
     Floor,
-    /// Neither is seen: what is common, in proportion to the diameter, as far as what is hidden allows.
+    /// Neither is seen: the height is what is common, in proportion to the diameter, as far as what is hidden allows.
     Common,
 }
 

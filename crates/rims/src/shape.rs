@@ -9,14 +9,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RimShape {
-    /// Round ones.
+    /// Round rims.
     Circle,
     /// Square and rectangular plates with a well.
     Rectangle,
 }
 
 impl RimShape {
-    /// Its name in study.toml and on the command line.
+    /// The name of the shape in study.toml and on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -32,7 +32,7 @@ impl Display for RimShape {
     }
 }
 
-/// Not the name of a [`RimShape`].
+/// The error for a text that is not the name of a [`RimShape`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("'{0}' is not one of: circle, rectangle")]
 pub struct UnknownRimShape(String);

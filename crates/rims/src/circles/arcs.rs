@@ -11,19 +11,19 @@ const ROUGH: [f32; 2] = [0.12, 0.06];
 const ROUGH_STEPS: u8 = 2;
 const FINE: [f32; 2] = [0.03, 0.0];
 const FINE_STEPS: u8 = 3;
-/// Edges that a fit may meet lie in a ring of this width around its start, in radii ...
+/// The edges of a fit lie in a ring of this width around its start, in radii.
 const GATHERED: f32 = 0.25;
-/// ... and point to its start's centre within about 30 degrees.
+/// The edges of a fit point to the centre of its start within about 30 degrees: the least cosine.
 const GATHERED_COSINE: f32 = 0.86;
-/// After the first steps, edges further from the circle than this are left out ...
+/// After the first steps, edges further from the circle than this, in radii, are left out.
 const KEPT: f32 = 0.12;
-/// ... and before the last ones those further than this many rings.
+/// Before the last steps, edges further from the circle than this many rings are left out.
 const CLOSE: f32 = 2.0;
-/// A circle with less edge in its ring after the rough steps, relative to its length, is given up, ...
+/// A circle is given up if it has less edge than this in its ring after the rough steps, relative to its length.
 const LEAST_START: f32 = 0.25;
-/// ... or with less of its bins covered there ...
+/// A circle is given up if a smaller share of its bins than this is covered after the rough steps.
 const LEAST_START_COVERAGE: f64 = 0.22;
-/// ... and one with less along it before the last steps, or in the end.
+/// A circle is given up if it has less edge than this along it before the last steps, or after them, relative to its length.
 const LEAST_SHARE: f32 = 0.2;
 /// Circles with less of their bins covered are not looked at further.
 const LEAST_COVERAGE: f64 = 0.3;
@@ -75,7 +75,7 @@ pub(super) fn fine(buckets: &Buckets, rough: &Rough, most_oval: f64) -> Option<A
     Some(support(buckets, &trial))
 }
 
-/// Some steps; none where the circle runs away from its start.
+/// Takes some steps of the fit; none where the circle runs away from its start.
 fn steps(near: &Near, mut trial: Trial, start: &Disc, width: f32, count: u8) -> Option<Trial> {
     for _ in 0..count {
         trial = near.step(&trial, width)?;
@@ -100,7 +100,7 @@ fn close_to(buckets: &Buckets, trial: &Trial, ring: f32, largest_scale: f32) -> 
     Near::gather(buckets, &trial.disc, &Within { width_mm, width_px, most_mm, cosine: GATHERED_COSINE })
 }
 
-/// Fits again, from close by.
+/// Fits a circle again, from a start close to it.
 pub(super) fn refit(buckets: &Buckets, start: &Arc, most_oval: f64) -> Option<Arc> {
     #[expect(clippy::cast_possible_truncation, reason = "mm")]
     let radius = start.disc.radius as f32;

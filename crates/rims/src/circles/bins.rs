@@ -1,11 +1,11 @@
 //! A circle divided into bins by direction.
 
-/// The circle is divided into as many bins.
+/// The number of bins that a circle is divided into, by direction.
 pub(crate) const BINS: usize = 72;
 /// Share of a bin's length that must be edges.
 const BIN_SHARE: f32 = 0.4;
 
-/// The bin of a direction, by numbers as its cosine and sine, and as long as one likes.
+/// The bin of a direction, by two numbers in the proportion of its cosine and sine.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "bins")]
 pub(crate) fn bin_of(cos: f32, sin: f32) -> usize {
     let turn = angle_of(cos, sin) * (1.0 / std::f32::consts::TAU);

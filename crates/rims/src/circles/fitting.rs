@@ -15,13 +15,13 @@ const ROOM: usize = 256;
 
 /// The edges about a circle that a fit may meet.
 pub(super) struct Within {
-    /// At most so far from the circle (mm) ...
+    /// The distance from the circle up to which edges count, in mm; or [`Self::width_px`] where that is more.
     pub width_mm: f32,
-    /// ... or so many scaled pixels, whichever is more, ...
+    /// The same distance in scaled pixels.
     pub width_px: f32,
-    /// ... but never further than this (mm), ...
+    /// No edge counts beyond this distance, in mm.
     pub most_mm: f32,
-    /// ... and with this cosine at least between normal and radius.
+    /// The least cosine between the normal of an edge and the radius.
     pub cosine: f32,
 }
 

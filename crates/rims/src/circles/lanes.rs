@@ -1,4 +1,4 @@
-//! Edges number by number, so that a processor takes four at once.
+//! Edges as columns of numbers, so that a processor works on four of them at once.
 
 use std::ops::Range;
 

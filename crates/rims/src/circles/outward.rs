@@ -10,7 +10,7 @@ use super::trial::{Arc, RING_PX, Trial};
 const FURTHEST: f64 = 1.3;
 /// Nearer edges are the same one.
 const NEAREST: f64 = 1.02;
-/// Steps of the radius.
+/// The step from one radius that is tried to the next, as a share of the radius.
 const STEP: f64 = 0.01;
 /// Radii that are tried.
 const RINGS: usize = 29;

@@ -3,7 +3,7 @@
 use super::trial::Arc;
 use crate::evidence::Evidence;
 
-/// A circle with what speaks for it.
+/// A circle with the evidence for it.
 #[derive(Debug, Clone)]
 pub(crate) struct Scored {
     pub arc: Arc,
@@ -15,20 +15,20 @@ pub(crate) struct Scored {
 
 /// A circle raised above another one by this share of its radius (seen on Z = 0) stands in or on it.
 const RAISED: f64 = 0.2;
-/// ... if it is smaller than this share of it.
+/// A circle stands in or on another one only if it is smaller than this share of it.
 const STANDS_IN: f64 = 0.85;
-/// An outer edge is about as likely as the inner one, this share of it at least ...
+/// An outer edge is taken if it is at least this share as likely as the inner one.
 const AS_LIKELY: f64 = 0.7;
-/// ... a rim as what it holds, hidden by hands, this share ...
+/// A rim that hands hide is taken if it is at least this share as likely as the circle that it holds.
 const AS_LIKELY_OVER: f64 = 0.4;
-/// ... its edges cover as much of it, this share at least ...
+/// The edges of the outer circle cover at least this share of what those of the inner one cover.
 const AS_COVERED: f64 = 0.65;
-/// ... and are as strong, this share at least: a shadow's are soft ...
+/// The edges of the outer circle are at least this share as strong as those of the inner one: those of a shadow are soft.
 const AS_STRONG: f64 = 0.55;
 /// ... and no larger than this multiple for the thickness of a rim, and this one for a rim around a well or floor.
 const THICKEST: f64 = 1.3;
 const WIDEST: f64 = 2.4;
-/// From foot or food to rim in as many steps at most.
+/// The greatest number of steps from foot or food to the rim.
 const STEPS_OUT: usize = 4;
 /// Cups are as high as this multiple of their diameter.
 const HIGHEST: f64 = 1.2;
@@ -40,7 +40,7 @@ const OUTERMOST: f64 = 1.25;
 /// Nothing of a container is seen beyond its rim, which reaches further from the wearer by this share of its radius (thickness
 /// and prints of the rim itself are looked at later) ...
 const FURTHER: f64 = 0.05;
-/// ... and is as well seen there, this share at least.
+/// The rim is seen at least this share as well there.
 const AS_FAR: f64 = 0.6;
 /// Of a rim before another one at least this share of the far half is seen.
 const SHOWN: f64 = 0.5;

@@ -7,7 +7,7 @@ use super::bins::BINS;
 use super::trial::Arc;
 use crate::evidence::{Evidence, binomial_tail_log10};
 
-/// Circles that a search tries, as a power of ten: cells of all layers.
+/// The common logarithm of the number of circles that a search tries: the cells of all layers.
 const TESTS_LOG10: f64 = 6.0;
 /// Edges nearer to each other than this many scaled pixels are not independent.
 const INDEPENDENT_PX: f64 = 6.0;

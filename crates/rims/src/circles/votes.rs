@@ -5,7 +5,7 @@ use wide::{CmpLe, f32x4};
 use super::trial::Disc;
 use crate::edges::GroundEdge;
 
-/// Circles voted for, those with most votes for their length first.
+/// The number of circles that are voted for.
 pub(super) struct Likely {
     /// One for each group of neighbours, by its place among all.
     pub peaks: Vec<usize>,

@@ -2,7 +2,7 @@
 
 use super::edge::{Edges, NONE};
 
-/// Shorter chains are texture.
+/// Chains of fewer edges are taken for texture and left out.
 const SHORTEST: usize = 8;
 /// Gradients of neighbours on a chain differ by less than 40 degrees.
 const LEAST_COSINE: f32 = 0.77;

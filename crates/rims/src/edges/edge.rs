@@ -14,7 +14,7 @@ pub(super) struct Edge {
     pub gy: f32,
 }
 
-/// Edges, and which one lies in which pixel.
+/// The edges of a picture, and the index of the edge in each pixel.
 pub(super) struct Edges {
     pub width: usize,
     pub height: usize,
@@ -26,7 +26,7 @@ pub(super) struct Edges {
 /// No edge in this pixel.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// An edge stands out by as many standard deviations of the gradient in the quiet parts of the picture.
+/// The gradient of an edge is at least so many standard deviations of the gradient in the quiet parts of the picture.
 const OUT_OF_NOISE: f32 = 3.0;
 /// A quarter of a Rayleigh distribution lies below this multiple of its scale.
 const RAYLEIGH_QUARTILE: f32 = 0.758_5;

@@ -5,7 +5,7 @@ use ingest::Picture;
 /// The search looks at pictures whose longer side has about as many pixels: a rim of a third of the picture is then some
 /// 500 pixels long, and noise and fine texture are averaged away.
 const SEARCH_SIDE_PX: u32 = 700;
-/// ... but of whose centre a radian has no fewer: in the picture of a wide lens a plate is small.
+/// A radian at the centre of the reduced picture has at least so many pixels: in the picture of a wide lens a plate is small.
 const SEARCH_FOCAL_PX: f64 = 300.0;
 
 /// Three planes of brightness (0-255), each pixel the mean of `factor` x `factor` pixels of the picture.

@@ -27,7 +27,7 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// From 0 to 1: what orders circles while they are searched.
+    /// The rank of a circle while circles are searched, from 0 to 1: the higher comes first.
     pub(crate) fn rank(&self) -> f64 {
         let score = 12.0 * (self.coverage * self.visible.sqrt() - 0.58)
             + 0.12 * ((-self.false_alarms_log10).min(60.0) - 18.0)

@@ -10,7 +10,7 @@ use crate::priors::{FLOOR_LEVELS, FLOORS, FLOORS_TRIED, FloorLevel};
 const SHOWS: f64 = 0.7;
 /// The share of floors that show.
 const SHOWING: f64 = 0.5;
-/// Places that are looked at.
+/// The number of places that are looked at.
 const PLACES: usize = 48;
 /// Scaled pixels from the rim within which edges are the rim's.
 const CLEAR_PX: f64 = 4.0;

@@ -38,19 +38,19 @@ const WITHIN: [f64; 2] = [0.2, 0.85];
 const AROUND: [f64; 2] = [1.15, 1.8];
 /// A wall stands out from the table as its rim does, this share of it at least: a shadow does less.
 const AS_STRONG: f64 = 0.35;
-/// Neighbouring places are not independent: what they say counts this much.
+/// Neighbouring places are not independent: their evidence counts this much.
 const INDEPENDENT: f64 = 0.3;
 /// A foot or a floor counts as the source of a height if the logarithm of its odds is so much larger there than at heights that are
 /// common.
 const SAYS: f64 = 4.0;
 
-/// One height, foot and wall, and the logarithm of how likely they are.
+/// One height, foot and wall that is tried, and the logarithm of how likely they are.
 struct Trial {
     height_mm: f64,
-    /// By what is seen below the rim, and within it.
+    /// The evidence of what is seen below the rim (`below`), and within it (`within`).
     below: f64,
     within: f64,
-    /// By what is common, if it is a plate, and if it is a bowl.
+    /// The priors of a plate (`plate`) and of a bowl (`bowl`).
     plate: f64,
     bowl: f64,
 }
@@ -63,8 +63,8 @@ pub(crate) fn of_rim(buckets: &Buckets, rim: &Arc, camera_mm: f64) -> Heights {
     Heights { plate, bowl, plate_log_odds: (plates - bowls) / *TOO_SURE_OF_KIND }
 }
 
-/// Mean and deviation of the height, and the logarithm of the sum of all that speaks for it. `mistaken`: share of what is seen
-/// that means nothing.
+/// Mean and deviation of the height, and the logarithm of the sum of the evidence for all heights. `mistaken`: the share of the edges
+/// seen that mean nothing.
 fn height(trials: &[Trial], common: impl Fn(&Trial) -> f64, mistaken: f64) -> (RimHeight, f64) {
     let odds = |t: &Trial| t.below + t.within + common(t);
     let most = trials.iter().map(odds).fold(f64::NEG_INFINITY, f64::max);

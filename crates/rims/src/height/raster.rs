@@ -1,17 +1,17 @@
-//! Edges drawn into a grid around one rim: whether an edge with some normal lies at a place is then one look.
+//! Edges drawn into a grid around one rim, so that one look tells whether an edge with some normal lies at a place.
 
 use wide::{CmpGe, CmpLt, f32x4};
 
 use crate::circles::{Buckets, Disc, angle_of};
 use crate::edges::GroundEdge;
 
-/// An edge answers for places within this many scaled pixels across it ...
+/// An edge counts for places within this many scaled pixels across it.
 const ACROSS_PX: f32 = 1.5;
-/// ... and this multiple of its length along it ...
+/// An edge counts for places within this multiple of its length along it.
 const ALONG: f32 = 1.5;
-/// ... that ask for a normal within 20 degrees of its own, to either side.
+/// An edge counts where a normal within 20 degrees of its own is asked for, to either side.
 const WITHIN_RAD: f32 = 0.35;
-/// Directions that are told apart in half a turn.
+/// The number of directions that are distinguished in half a turn.
 const SECTORS: u32 = 16;
 /// Cells per scaled pixel of the rim.
 const CELLS_PER_PX: f64 = 1.5;

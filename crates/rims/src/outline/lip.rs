@@ -16,16 +16,16 @@ use super::rings::{Edge, Moved, at_px, features, odds};
 use crate::circles::Arc;
 use crate::weights::RING_FEATURES;
 
-/// Edges are looked for within these shares of the radius, inward and outward ...
+/// Edges are looked for so far inward and outward of the circle, as shares of its radius.
 const INWARD: f64 = 0.06;
 const OUTWARD: f64 = 0.08;
-/// ... but not further outward than this, in mm on Z = 0: lips are not thicker.
+/// Edges are not looked for further outward than this, in mm on Z = 0: lips are not thicker.
 const THICKEST_MM: f64 = 11.0;
 /// Pictures of many pixels are looked at in steps of this many pixels of the reduced scale: their lenses resolve no more.
 const UNIT: f64 = 0.5;
-/// The share that chance gives is counted on circles further out: the nearest one is so many pixels away ...
+/// The share that chance gives is counted on circles further out: the nearest one is so many pixels away.
 const NEAREST_TABLE_PX: f64 = 2.5;
-/// ... and the furthest one so many.
+/// The furthest circle on which chance is counted is so many pixels away.
 const FURTHEST_TABLE_PX: f64 = 16.0;
 /// Edges within this many pixels of a circle are along it.
 const ALONG_PX: f64 = 1.0;
@@ -44,7 +44,7 @@ const LEAST_DIRECTIONS: usize = 20;
 /// A rim's outer edge is seen in this share of the directions that show any, and this share as well as the best edge.
 const SEEN: f64 = 0.35;
 const AS_SEEN: f64 = 0.4;
-/// Odds (logarithm) beyond this count as this.
+/// Logarithms of odds are held between minus this and this, so that no single pair decides.
 const MOST_ODDS: f64 = 3.0;
 /// Round circles are taken if the best of them is seen in so much more of the directions than the best oval one.
 const BETTER_SEEN: f64 = 0.05;
@@ -174,7 +174,7 @@ fn seen(rays: &[Ray], moved: &Moved, showing: usize) -> f64 {
     (share(0.0) - chance) / (1.0 - chance).max(0.05)
 }
 
-/// The edge that is the rim's against the others, on the mean.
+/// The edge that is the likeliest one of the rim, by the mean of its odds against the others.
 fn likeliest(rays: &[Ray], edges: &[Edge]) -> Option<Edge> {
     let against = |a: &Edge, b: &Edge| {
         let (inner, outer, sign) = if a.moved.z < b.moved.z { (a, b, -1.0) } else { (b, a, 1.0) };

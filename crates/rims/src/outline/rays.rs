@@ -31,7 +31,7 @@ pub(super) struct Span {
 pub(super) struct Ray {
     /// Cosine and sine of the direction.
     pub unit: [f64; 2],
-    /// How far outside the circle its edges are, in pixels.
+    /// The distances of its edges outside the circle, in pixels.
     pub edges_px: Vec<f64>,
     colours: Vec<Option<[f64; 3]>>,
     inward_px: f64,
@@ -113,7 +113,7 @@ fn colours(picture: &Picture, view: &View, arc: &Arc, angle: f64, span: Span) ->
     (0..samples).map(sample).collect()
 }
 
-/// Where brightness or colour changes fastest along one direction, in pixels outside the circle.
+/// The places where brightness or colour changes fastest along one direction, in pixels outside the circle.
 #[expect(clippy::cast_precision_loss, reason = "samples")]
 fn edges(colours: &[Option<[f64; 3]>], inward_px: f64) -> Vec<f64> {
     let change = |i: usize| match (colours[i - HALF], colours[i + HALF]) {

@@ -13,9 +13,9 @@ const SPACING_PX: f64 = 4.0;
 const FEWEST_PLACES: f64 = 48.0;
 /// The greatest number of such places.
 const MOST_PLACES: f64 = 96.0;
-/// The edge lies within this many scaled pixels of the fitted circle ...
+/// The edge at a place lies within this many scaled pixels of the fitted circle.
 const REACH_PX: f64 = 1.2;
-/// ... and has this share of the median edge's strength.
+/// The edge at a place has at least this share of the median strength of all of them.
 const LEAST_STRENGTH: f64 = 0.3;
 /// Places further from the others than this many deviations belong to something else.
 const OUTLIER: f64 = 3.0;

@@ -1,4 +1,4 @@
-//! Whether what lies between two edges about one centre is part of the container or of the table.
+//! The ring between two edges about one centre: whether it is a part of the container or of the table.
 //!
 //! A lip or a printed ring looks like what is within it, or like neither; the table between a rim and the edge of a shadow or
 //! a stripe looks like the table further out, but for its brightness. So the colour of the ring is held against the colours
@@ -12,7 +12,7 @@ const CLEAR_PX: f64 = 0.7;
 const CLEAR: f64 = 0.35;
 /// They are compared over at least so many pixels.
 const LEAST_PX: f64 = 1.0;
-/// Fewer directions tell nothing.
+/// A ring is judged by at least so many directions.
 const LEAST_DIRECTIONS: usize = 15;
 
 /// A circle near another one: how far its centre is moved and its radius is larger, in pixels.
@@ -33,20 +33,20 @@ struct Likeness {
     hue: f64,
 }
 
-/// How far outside the circle that rays start from another one is, in a direction.
+/// The distance of a circle outside the one from which rays start, along a ray, in pixels.
 pub(super) fn at_px(ray: &Ray, moved: &Moved) -> f64 {
     ray.unit[0] * moved.x + ray.unit[1] * moved.y + moved.z
 }
 
-/// Logarithm of the odds that the outer one of two edges is the rim's outer edge rather than the inner one; none where the
-/// picture does not tell.
+/// Logarithm of the odds that the outer one of two edges is the rim's outer edge rather than the inner one; none where too few
+/// directions show both.
 pub(super) fn odds(rays: &[Ray], inner: &Edge, outer: &Edge) -> Option<f64> {
     let features = features(rays, inner, outer)?;
     Some(RING_ODDS.iter().zip(features).map(|(weight, feature)| weight * feature).sum())
 }
 
-/// The features of a pair of edges, by which [`odds`] are told: one, the ring's likeness in colour and in hue, and the shares of the
-/// directions that show the inner and the outer edge; none where the picture does not tell.
+/// The features of a pair of edges, by which [`odds`] judges it: one, the ring's likeness in colour and in hue, and the shares of the
+/// directions that show the inner and the outer edge; none where too few directions show both.
 pub(super) fn features(rays: &[Ray], inner: &Edge, outer: &Edge) -> Option<[f64; RING_FEATURES]> {
     let Likeness { colour, hue } = likeness(rays, &inner.moved, &outer.moved)?;
     Some([1.0, colour, hue, inner.seen, outer.seen])

@@ -11,13 +11,13 @@ use crate::rim::Rim;
 use crate::rim_height::{HeightSource, RimHeight};
 
 impl Rim {
-    /// The height of the plane that it is measured on: what is known, else what was found for its kind.
+    /// The height of the plane that it is measured on: the known one, else the one that was found for its kind.
     #[must_use]
     pub fn height_as(&self, container: &Container) -> RimHeight {
         self.found().height_as(container)
     }
 
-    /// Its sizes; see [`Found::sizes`].
+    /// The sizes of the rim; see [`Found::sizes`].
     #[must_use]
     pub fn sizes(
         &self,
@@ -31,7 +31,7 @@ impl Rim {
 }
 
 impl Found {
-    /// The height of the plane that it is measured on: what is known, else what was found for its kind.
+    /// The height of the plane that it is measured on: the known one, else the one that was found for its kind.
     #[must_use]
     pub fn height_as(&self, container: &Container) -> RimHeight {
         match (container.rim_height_mm, container.kind) {

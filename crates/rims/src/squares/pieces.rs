@@ -6,17 +6,17 @@ use crate::edges::GroundEdge;
 
 /// Neighbours on a chain are nearer to each other than this multiple of the length that one of them stands for.
 const NEXT: f32 = 4.0;
-/// A piece is straight if its edges are within this many scaled pixels of its chord ...
+/// A piece is straight if its edges are within this many scaled pixels of its chord.
 const STRAIGHT_PX: f64 = 1.2;
-/// ... and is worth looking at if it has as many edges, and is as long (mm).
+/// A piece is looked at if it has so many edges, and is so long (mm).
 const LEAST_EDGES: usize = 8;
 const LEAST_MM: f64 = 10.0;
-/// Pieces are of one line if their directions differ by less than this (sine) ...
+/// Pieces are of one line if their directions differ by less than this (sine).
 const SAME_SINE: f64 = 0.06;
-/// ... their ends are within as many scaled pixels of it, and this share of the way to them ...
+/// Pieces are of one line if their ends are within so many scaled pixels of it, and within this share of the way to them.
 const SAME_PX: f64 = 1.5;
 const SAME_SHARE: f64 = 0.012;
-/// ... and the gap between them is no wider than this (mm), or than this share of the shorter.
+/// Pieces are of one line if the gap between them is no wider than this (mm), or than this share of the shorter.
 const GAP_MM: f64 = 14.0;
 const GAP_SHARE: f64 = 0.5;
 /// Sides of a rectangle are seldom among the shorter pieces beyond this many.

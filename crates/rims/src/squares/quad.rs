@@ -101,7 +101,7 @@ impl Quad {
         self.corners.iter().map(|c| (c - center).norm()).fold(0.0, f64::max)
     }
 
-    /// How far it is from a rectangle: the largest cosine between neighbours, and difference of opposite sides, as a share.
+    /// The departure from a rectangle: the largest cosine between neighbours, and difference of opposite sides, as a share.
     pub(super) fn skew(&self) -> f64 {
         let sides = self.sides();
         let corner = (0..4).map(|k| sides[k].along.dot(&sides[(k + 1) % 4].along).abs()).fold(0.0, f64::max);
@@ -116,7 +116,7 @@ impl Quad {
         (0..4).map(way).fold(f64::INFINITY, f64::min)
     }
 
-    /// Fitted to the edges along its sides, each side by itself; none where it falls apart.
+    /// Returns the quad fitted to the edges along its sides, each side by itself; none where it falls apart.
     pub(super) fn fitted(&self, near: &[GroundEdge]) -> Option<Self> {
         let mut quad = *self;
         let sides = self.sides();

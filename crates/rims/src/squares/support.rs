@@ -3,7 +3,7 @@
 use super::quad::{Quad, Side};
 use crate::edges::GroundEdge;
 
-/// A side is divided into as many bins.
+/// The number of bins that a side is divided into.
 pub(super) const BINS: usize = 24;
 /// Those that say something of lines beside a side: without the quarter next to each corner.
 const MIDDLE: u32 = ((1 << (BINS / 2)) - 1) << (BINS / 4);
