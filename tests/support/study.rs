@@ -84,9 +84,9 @@ impl StudyFolder {
 
 /// The reading of an accelerometer at rest (it feels the table's push, upwards) for a camera that looks `pitch_deg` down.
 fn at_rest_g(pitch_deg: f64, roll_deg: f64) -> [f64; 3] {
-    let (sin_w, cos_w) = pitch_deg.to_radians().sin_cos();
-    let (sin_p, cos_p) = roll_deg.to_radians().sin_cos();
-    [-sin_p * cos_w, -cos_p * cos_w, -sin_w]
+    let (sin_pitch, cos_pitch) = pitch_deg.to_radians().sin_cos();
+    let (sin_roll, cos_roll) = roll_deg.to_radians().sin_cos();
+    [-sin_roll * cos_pitch, -cos_roll * cos_pitch, -sin_pitch]
 }
 
 /// A LabelMe file.

@@ -50,8 +50,8 @@ pub(crate) fn scaled_paper(
         .and_then(|file| file.empirical.iter().find(|entry| entry.used && fits(entry.kind, entry.height)))
         .filter(|_| estimate.method == Method::Paper);
     let Some(entry) = entry else { return estimate };
-    let tan_w = view.pose().pitch_rad().tan();
-    let factor = entry.a + entry.b * tan_w;
+    let tan_pitch = view.pose().pitch_rad().tan();
+    let factor = entry.a + entry.b * tan_pitch;
     if !(factor.is_finite() && factor > 0.05) {
         return estimate;
     }
@@ -59,7 +59,7 @@ pub(crate) fn scaled_paper(
     scaled.measured.predicted_mm /= factor;
     scaled.sensitivity.by_source /= factor;
     scaled.sensitivity.marks_mm_per_px /= factor;
-    let by_pitch = -scaled.measured.predicted_mm * entry.b * (1.0 + tan_w * tan_w) / factor;
+    let by_pitch = -scaled.measured.predicted_mm * entry.b * (1.0 + tan_pitch * tan_pitch) / factor;
     scaled.sensitivity.by_source[Source::Pitch.index()] += by_pitch;
     scaled.sensitivity.by_source[Source::Mount.index()] += by_pitch;
     scaled.sigma = scaled.sensitivity.sigma(inputs);

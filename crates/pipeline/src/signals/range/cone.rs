@@ -13,22 +13,23 @@ const HALF_CONE_RAD: f64 = 12.5 * std::f64::consts::PI / 180.0;
 ///
 /// It is assumed that the sensitivity is the same all over the cone and zero outside, that the table is matt (Lambert), and
 /// that the reading is the mean distance, weighted by the light that comes back. A ray at depression e meets the table at r
-/// = c / sin e, and of the light sent into the solid angle dO, sin(e) / r^2 comes back. With c = d sin w:
+/// = c / sin e, and of the light sent into the solid angle dO, sin(e) / r^2 comes back. With c = d sin pitch,
+/// and g for the light that comes back:
 ///
-/// k(w) = integral of r w dO / (d integral of w dO) = sin w I2 / I3, where In is the integral of sin^n e dO.
+/// k(pitch) = integral of r g dO / (d integral of g dO) = sin pitch I2 / I3, where In is the integral of sin^n e dO.
 ///
-/// With sin e = cos a sin w + sin a cos f cos w, for a ray at angle a off the axis in the direction f, both integrals have
+/// With sin e = cos a sin pitch + sin a cos f cos pitch, for a ray at angle a off the axis in the direction f, both integrals have
 /// the closed form used here.
 #[must_use]
 pub(crate) fn reading_over_axis(pitch_rad: f64) -> Option<f64> {
     if !(pitch_rad > HALF_CONE_RAD && pitch_rad <= FRAC_PI_2 + 1e-9) {
         return None;
     }
-    let (sin_w, cos_w) = pitch_rad.sin_cos();
+    let (sin_pitch, cos_pitch) = pitch_rad.sin_cos();
     let (s, c) = HALF_CONE_RAD.sin_cos();
-    let i2 = sin_w.powi(2) * (1.0 - c.powi(3)) / 3.0 + 0.5 * cos_w.powi(2) * (2.0 / 3.0 - c + c.powi(3) / 3.0);
-    let i3 = sin_w.powi(3) * (1.0 - c.powi(4)) / 4.0 + 1.5 * sin_w * cos_w.powi(2) * s.powi(4) / 4.0;
-    Some(sin_w * i2 / i3)
+    let i2 = sin_pitch.powi(2) * (1.0 - c.powi(3)) / 3.0 + 0.5 * cos_pitch.powi(2) * (2.0 / 3.0 - c + c.powi(3) / 3.0);
+    let i3 = sin_pitch.powi(3) * (1.0 - c.powi(4)) / 4.0 + 1.5 * sin_pitch * cos_pitch.powi(2) * s.powi(4) / 4.0;
+    Some(sin_pitch * i2 / i3)
 }
 
 #[cfg(test)]
