@@ -1,5 +1,5 @@
 //! Compares the containers that were found without marks in a simulated study with its truth, session by session
-//! (docs/rims.md).
+//! (docs/rims-evaluation.md).
 //!
 //! ```text
 //! aim-batch simulate worn -o STUDY

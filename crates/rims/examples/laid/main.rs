@@ -1,4 +1,4 @@
-//! Rims found without marks on the rendered tables of `bench` and `worn`, against the truth (docs/rims.md).
+//! Rims found without marks on the rendered tables of `bench` and `worn`, against the truth (docs/rims-evaluation.md).
 //!
 //! ```text
 //! cargo run -p aim-batch-rims --example laid -- SEED [BENCHES [WORN_SESSIONS [IMAGES [WIDTH]]]]

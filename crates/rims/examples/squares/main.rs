@@ -1,4 +1,4 @@
-//! Square and rectangular plates found without marks on rendered tables, against the truth (docs/rims.md).
+//! Square and rectangular plates found without marks on rendered tables, against the truth (docs/rims-evaluation.md).
 //!
 //! ```text
 //! cargo run -p aim-batch-rims --example squares -- SEED [TABLES [OTHERS [BENCHES [WORN_SESSIONS [IMAGES [WIDTH]]]]]]
