@@ -265,7 +265,10 @@ mod tests {
         let codes: BTreeSet<&str> = ProblemCode::ALL.iter().map(|code| code.code()).collect();
         assert_eq!(codes.len(), ProblemCode::ALL.len());
         for code in ProblemCode::ALL {
-            assert!(code.code().bytes().all(|byte| byte.is_ascii_lowercase() || byte == b'_'), "{code}");
+            assert!(
+                code.code().bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_'),
+                "{code}"
+            );
             assert!(!code.meaning().is_empty() && !code.remedy().is_empty(), "{code}");
             assert!(![code.meaning(), code.remedy()].concat().contains(['|', '\n']), "{code}: it stands in a table");
         }
