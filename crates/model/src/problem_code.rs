@@ -87,6 +87,7 @@ coded_enum! {
         McapNotWritten = "mcap_not_written": "a recording could not be written to the work folder",
         NoThread = "no_thread": "the system gave the program no thread",
         Stopped = "stopped": "the run was stopped before the card was read to its end",
+        UnknownCode = "unknown_code": "the results were written by a later version, which knows more codes; place, fact and remedy are its own",
         InternalError = "internal_error": "a defect of the program; the other sessions are complete",
     }
 }
@@ -193,6 +194,7 @@ impl ProblemCode {
             Self::McapNotWritten => "check space and permissions of the work folder",
             Self::NoThread => "run again when the machine has less to do, or with fewer --jobs",
             Self::Stopped => "run again: what was done is kept",
+            Self::UnknownCode => "read the results with the version that wrote them",
             Self::InternalError => "report it with the message",
         }
     }
@@ -259,6 +261,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::{HEADINGS, ProblemCode, problems_markdown};
+    use crate::status::Problem;
 
     #[test]
     fn codes_are_snake_case_and_each_has_a_meaning_and_a_remedy_of_its_own_line() {
@@ -272,6 +275,17 @@ mod tests {
             assert!(!code.meaning().is_empty() && !code.remedy().is_empty(), "{code}");
             assert!(![code.meaning(), code.remedy()].concat().contains(['|', '\n']), "{code}: it stands in a table");
         }
+    }
+
+    /// A code that is not known yet loses neither the file that holds it nor what is said of the case.
+    #[test]
+    fn a_code_of_a_later_version_is_read_with_its_fact() {
+        let json =
+            r#"{"severity": "loss", "stage": "ingest", "code": "too_dark", "place": "p", "fact": "f", "remedy": "r"}"#;
+        let problem: Problem = serde_json::from_str(json).unwrap();
+        assert_eq!((problem.code, problem.fact.as_str()), (ProblemCode::UnknownCode, "f"));
+        let known: Problem = serde_json::from_str(&json.replace("too_dark", "gaps")).unwrap();
+        assert_eq!(known.code, ProblemCode::Gaps);
     }
 
     #[test]

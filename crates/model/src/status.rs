@@ -1,6 +1,6 @@
 //! The status of a session, and the problems that it had.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::codes::coded_enum;
 use crate::problem_code::ProblemCode;
@@ -32,6 +32,7 @@ pub struct Problem {
     /// The stage at which it arose.
     pub stage: Stage,
     /// The stable code, in snake case.
+    #[serde(deserialize_with = "code_or_unknown")]
     pub code: ProblemCode,
     /// The file or folder that it concerns, relative to the study.
     pub place: String,
@@ -39,6 +40,11 @@ pub struct Problem {
     pub fact: String,
     /// The remedy: what a person can do about it.
     pub remedy: String,
+}
+
+/// Reads a code; one that this version does not know is [`ProblemCode::UnknownCode`], so that results of a later version can be read.
+fn code_or_unknown<'de, D: Deserializer<'de>>(deserializer: D) -> Result<ProblemCode, D::Error> {
+    Ok(String::deserialize(deserializer)?.parse().unwrap_or(ProblemCode::UnknownCode))
 }
 
 /// The status of one session after a run.
