@@ -4,7 +4,8 @@
 //! cargo run -p aim-batch-rims --example weights -- SET FILE.csv ... [--write YYYY-MM-DD]
 //! ```
 //!
-//! Prints the numbers of today and the new ones with their standard errors. With --write the file gets the new ones and that date.
+//! Prints the numbers of today and the new ones with their standard errors. With --write the file gets the new ones and that date;
+//! where the files are of other seeds than those of the set, correct `seeds` and `cases_from` in it.
 //!
 //! Logistic regression with a normal prior on each weight, by Newton's method with steps that are halved until the fit gets
 //! better. The prior of round rims says what must hold whatever few hundred pictures show: more of a rim is better than less. The
@@ -51,6 +52,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let date = arguments.iter().position(|argument| argument == "--write").map(|at| arguments.split_off(at));
     let (name, files) = arguments.split_first().ok_or("give the name of a set, and files of cases")?;
     let mut sets = fitted_sets();
+    if name == "mistaken" {
+        return Err("the set mistaken was chosen, not fitted: the example laid prints what it is judged by".into());
+    }
     let known = sets.keys().cloned().collect::<Vec<_>>().join(", ");
     let set = sets.get_mut(name).ok_or_else(|| format!("'{name}' is no set of weights.toml, which has: {known}"))?;
     let cases = read(files, set.features.len())?;
