@@ -139,6 +139,10 @@ impl Import<'_> {
         };
         let target = Target::new(self.options, session.dir, prepared, &picture.file);
         let picture_px = target.picture_px();
+        if let Some(fault) = image.fault.as_ref().filter(|_| !image.annotations.is_empty()) {
+            imported.refused.push(at_image(image, fault.clone()));
+            return Ok(());
+        }
         if let Some([got_width, got_height]) = image.size_px.filter(|size_px| *size_px != picture_px) {
             let [width, height] = picture_px;
             let fact = format!(
