@@ -114,7 +114,8 @@ impl CocoImage<'_> {
         let side = |name: &str, value: Option<&RawValue>| {
             let Some(value) = value else { return Ok(None) };
             let whole = json::text_of(Some(value)).and_then(|text| json::whole_number(&text)?.parse::<u32>().ok());
-            let odd = || format!("{name}: expected a whole number of pixels, got '{}'", short(value.get().trim_matches('"')));
+            let odd =
+                || format!("{name}: expected a whole number of pixels, got '{}'", short(value.get().trim_matches('"')));
             whole.ok_or_else(odd).map(Some)
         };
         let (width, height) = (side("width", self.width)?, side("height", self.height)?);

@@ -101,7 +101,8 @@ fn categories_by_id(categories: &[&RawValue], foreign: &mut Foreign) -> ById<Cat
             let name = json::text_of(category.name).ok_or_else(|| format!("category id {id}: it has no name"))?;
             let names = |value: &RawValue| serde_json::from_str(value.get());
             let keypoints = category.keypoints.map_or(Ok(Vec::new()), names);
-            let keypoints = keypoints.map_err(|error| format!("keypoints of category id {id}: expected names: {error}"));
+            let keypoints =
+                keypoints.map_err(|error| format!("keypoints of category id {id}: expected names: {error}"));
             Ok::<_, String>((id, Category { name, keypoints }))
         };
         match read() {

@@ -85,7 +85,11 @@ fn an_id_is_the_same_as_number_float_and_text() {
             );
             let foreign = parse(&text, Path::new("c.json")).unwrap();
             let [image, _] = &foreign.images[..] else { panic!("{text}") };
-            assert_eq!((image.size_px, image.fault.as_ref(), foreign.refused.len()), (Some([64, 48]), None, 0), "{text}");
+            assert_eq!(
+                (image.size_px, image.fault.as_ref(), foreign.refused.len()),
+                (Some([64, 48]), None, 0),
+                "{text}"
+            );
             let [annotation] = &image.annotations[..] else { panic!("{text}: {:?}", foreign.refused) };
             assert_eq!((annotation.place.as_str(), annotation.label.as_str()), ("annotation id 7", "bowl/rim"));
             assert!(matches!(annotation.drawn, Drawn::Points { .. }), "{text}");
@@ -156,7 +160,8 @@ fn odd_images_and_categories_spoil_what_refers_to_them() {
     assert!(matches!(drawn[1], Drawn::Unusable(fact) if fact.contains("category_id 2 is not among")));
     assert!(matches!(drawn[2], Drawn::Unusable(fact) if fact.contains("keypoints of category id 3")));
     assert_eq!(image("f").annotations.len(), 1, "of several, the one that is written in the same way");
-    let facts: Vec<String> = foreign.refused.iter().map(|refused| format!("{}: {}", refused.place, refused.fact)).collect();
+    let facts: Vec<String> =
+        foreign.refused.iter().map(|refused| format!("{}: {}", refused.place, refused.fact)).collect();
     for expected in [
         "image 2 of the file: it has no id",
         "image 3 of the file: cannot be read",
