@@ -12,3 +12,4 @@ pub mod methods;
 mod names;
 mod published_bench;
 mod squares;
+mod unicode;

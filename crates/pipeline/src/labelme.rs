@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use ingest::nfc;
 use model::{Feature, Mark, ObjectMarks, Quantity};
 use nalgebra::Point2;
 use serde::Deserialize;
@@ -126,7 +127,8 @@ fn found_of(shape: &Shape) -> Result<Option<Found>, String> {
 }
 
 fn mark(shape: &Shape) -> Result<(String, Mark), String> {
-    let Some((object, what)) = shape.label.rsplit_once('/').filter(|(object, _)| !object.is_empty()) else {
+    let label = nfc(&shape.label);
+    let Some((object, what)) = label.rsplit_once('/').filter(|(object, _)| !object.is_empty()) else {
         return Err(format!("expected a label like {EXPECTED}"));
     };
     if !shape.points.iter().flatten().all(|c| c.is_finite()) {
