@@ -82,7 +82,10 @@ fn two_folders_of_one_name_are_told() {
     }
     let (plates, said) = plates(&study, 3);
     assert_eq!(plates.len(), 2, "rater A, and one of the two");
-    assert!(said.contains("folders_alike") && said.contains("m\\u{fc}ller") && said.contains("mu\\u{308}ller"), "{said}");
+    assert!(
+        said.contains("folders_alike") && said.contains("m\\u{fc}ller") && said.contains("mu\\u{308}ller"),
+        "{said}"
+    );
 }
 
 /// Two cards that are one name: both are measured by their own marks, and it is told.

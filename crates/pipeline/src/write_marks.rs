@@ -109,9 +109,11 @@ impl Writer<'_> {
 pub(crate) fn picture_for(folder: &Path, dir: &SessionDir, prepared: &Prepared, image: &str) -> String {
     let beside = || image.rsplit('/').next().unwrap_or(image).to_owned();
     let is_recorded = prepared.camera == prepared.marks_camera.1;
-    let picture = dir.card.as_ref().filter(|_| is_recorded).map(|card| {
-        image.split('/').fold(card.clone(), |folder, part| there_or_new(&folder, part))
-    });
+    let picture = dir
+        .card
+        .as_ref()
+        .filter(|_| is_recorded)
+        .map(|card| image.split('/').fold(card.clone(), |folder, part| there_or_new(&folder, part)));
     picture.and_then(|picture| relative_path(folder, &picture)).unwrap_or_else(beside)
 }
 

@@ -30,7 +30,8 @@ pub fn entry_named(folder: &Path, name: &str) -> Option<PathBuf> {
     if !name.is_empty() && !name.contains(['/', '\\']) && exact.symlink_metadata().is_ok() {
         return Some(exact);
     }
-    let mut entries: Vec<PathBuf> = std::fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    let mut entries: Vec<PathBuf> =
+        std::fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.path())).collect();
     entries.sort();
     let wanted = nfc(name);
     entries.into_iter().find(|path| path.file_name().is_some_and(|entry| name_text(entry) == wanted))

@@ -69,7 +69,11 @@ impl Names {
     /// The names that labels may use: `objects` are those of objects.csv, `renamed` holds labels of the file, each with the
     /// label that it stands for.
     pub fn new<'a>(objects: impl IntoIterator<Item = &'a String>, renamed: BTreeMap<String, String>) -> Self {
-        Self { objects: objects.into_iter().cloned().collect(), renamed: renamed.into_iter().map(|(label, meaning)| (nfc(label), nfc(meaning))).collect(), messages: RefCell::default() }
+        Self {
+            objects: objects.into_iter().cloned().collect(),
+            renamed: renamed.into_iter().map(|(label, meaning)| (nfc(label), nfc(meaning))).collect(),
+            messages: RefCell::default(),
+        }
     }
 
     /// # Errors
@@ -173,10 +177,14 @@ mod tests {
 
     #[test]
     fn a_name_in_either_unicode_form() {
-        let names = Names::new(&["gr\u{fc}n".to_owned()], BTreeMap::from([("mu\u{308}".to_owned(), "gru\u{308}n/rim".to_owned())]));
+        let names = Names::new(
+            &["gr\u{fc}n".to_owned()],
+            BTreeMap::from([("mu\u{308}".to_owned(), "gru\u{308}n/rim".to_owned())]),
+        );
         for label in ["gru\u{308}n/rim", "m\u{fc}", "gr\u{fc}n/rim"] {
             let drawn = Drawn::Unusable(String::new());
-            let annotation = Annotation { place: String::new(), label: label.to_owned(), attributes: BTreeMap::new(), drawn };
+            let annotation =
+                Annotation { place: String::new(), label: label.to_owned(), attributes: BTreeMap::new(), drawn };
             assert_eq!(names.meaning(&annotation).unwrap().object, "gr\u{fc}n");
         }
     }

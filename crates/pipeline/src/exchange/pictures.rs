@@ -166,7 +166,7 @@ mod tests {
     use super::*;
 
     fn place_of(cards: &[(&str, &[&str])], name: &str) -> Result<String, String> {
-                let dirs: Vec<SessionDir> = cards.iter().map(|(session, _)| SessionDir::new(session)).collect();
+        let dirs: Vec<SessionDir> = cards.iter().map(|(session, _)| SessionDir::new(session)).collect();
         let mut pictures = Pictures::default();
         for (dir, (_, files)) in dirs.iter().zip(cards) {
             files.iter().for_each(|file| pictures.add((*file).to_owned()));

@@ -35,7 +35,8 @@ impl<'a> Target<'a> {
     pub fn new(options: &ImportOptions, dir: &'a SessionDir, prepared: &'a Prepared, file: &'a str) -> Self {
         // A folder or file that is there keeps its name, in whatever Unicode form. Else this is the card's own name, whatever
         // bytes it consists of.
-        let there_or = |folder: &Path, name: &str, new: &OsStr| entry_named(folder, name).unwrap_or_else(|| folder.join(new));
+        let there_or =
+            |folder: &Path, name: &str, new: &OsStr| entry_named(folder, name).unwrap_or_else(|| folder.join(new));
         let rater = there_or(&options.folder, &options.rater, options.rater.as_ref());
         let session = dir.card.as_deref().and_then(Path::file_name).unwrap_or(dir.name.as_ref());
         let folder = there_or(&rater, &dir.name, session);
@@ -50,9 +51,8 @@ impl<'a> Target<'a> {
 
     /// The text of the file. It holds the way to the picture, which is known once there is a folder for the marks.
     pub fn text<'m>(&self, marks: impl Iterator<Item = &'m ConvertedMark>) -> Result<String, ExchangeError> {
-        let shapes = marks.map(|ConvertedMark { label, shape_type, points_px }| {
-            OutShape::new(label.clone(), shape_type, points_px)
-        });
+        let shapes = marks
+            .map(|ConvertedMark { label, shape_type, points_px }| OutShape::new(label.clone(), shape_type, points_px));
         let picture = picture_for(&self.folder, self.dir, self.prepared, self.file);
         let text = labelme::text_of_shapes(shapes.collect(), &picture, self.picture_px());
         text.map_err(|error| self.failed(error.into()))

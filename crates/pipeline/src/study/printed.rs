@@ -60,7 +60,11 @@ fn read_printed(files: &PrintedFiles, study_dir: &Path) -> Result<PrintedTable, 
     let summaries = match &files.summaries {
         Some(file) => read_rows::<SummaryLine>(&study_dir.join(file))?
             .into_iter()
-            .map(|(_, line)| PrintedSummary { object: line.object.map(nfc), mean_pct: line.mean_pct, sd_pct: line.sd_pct })
+            .map(|(_, line)| PrintedSummary {
+                object: line.object.map(nfc),
+                mean_pct: line.mean_pct,
+                sd_pct: line.sd_pct,
+            })
             .collect(),
         None => Vec::new(),
     };

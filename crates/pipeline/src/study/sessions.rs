@@ -86,7 +86,8 @@ pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
         session.card = Some(card.path.clone());
         if alike.len() > 1 {
             let spelled: Vec<String> = alike.iter().map(|folder| spelled_out(&folder.exact)).collect();
-            let fact = "names of sessions are the same but for their Unicode form, so marks may be taken for the wrong one";
+            let fact =
+                "names of sessions are the same but for their Unicode form, so marks may be taken for the wrong one";
             session.problems.push(folders_alike(format!("cards/{name}"), format!("{fact}: {}", spelled.join(", "))));
         }
     }
