@@ -44,7 +44,8 @@ fn plates(study: &Path, code: i32) -> (Vec<f64>, String) {
 fn carry_out_remedies(study: &StudyFolder) -> Vec<String> {
     let text = std::fs::read_to_string(study.path().join("out/r.run.json")).unwrap();
     let run: serde_json::Value = serde_json::from_str(&text).unwrap();
-    let problems = run["sessions"].as_array().unwrap().iter().flat_map(|session| session["problems"].as_array().unwrap());
+    let problems =
+        run["sessions"].as_array().unwrap().iter().flat_map(|session| session["problems"].as_array().unwrap());
     let misplaced = problems.filter(|problem| problem["code"] == "marks_misplaced");
     let commands = misplaced.map(|problem| {
         let remedy = problem["remedy"].as_str().unwrap().strip_prefix("in the study's folder: ").unwrap();

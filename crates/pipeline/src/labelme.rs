@@ -10,8 +10,8 @@ use model::{Feature, Mark, ObjectMarks, Quantity};
 use nalgebra::Point2;
 use serde::Deserialize;
 
-pub use error::MarksError;
 use crate::json::with_null_for_nan;
+pub use error::MarksError;
 use rims::Found;
 pub(crate) use write::{AutoRim, Shape as OutShape, text_of, text_of_shapes};
 

@@ -43,8 +43,9 @@ fn is_among_marks(session: &Session<'_>, beside: &Path) -> bool {
 fn problem(session: &Session<'_>, folder: &Path, marks: &[PathBuf], is_all: bool) -> Problem {
     let count = if marks.len() == 1 { "1 file".to_owned() } else { format!("{} files", marks.len()) };
     let first = marks.first().map(|path| session.study.relative(path)).unwrap_or_default();
-    let fact =
-        format!("{count} of marks beside the pictures, where LabelMe puts them by default and none are read; first {first}");
+    let fact = format!(
+        "{count} of marks beside the pictures, where LabelMe puts them by default and none are read; first {first}"
+    );
     let target = format!("marks/RATER/{}", session.dir.name);
     let command = move_command(&session.study.dir, &target, folder, marks, is_all);
     misplaced(session.study.relative(folder), fact, command)

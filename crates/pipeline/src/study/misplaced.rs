@@ -110,7 +110,10 @@ fn problem(study_dir: &Path, loose: &Loose, session: Option<&str>, files: &[Path
     let names: Vec<String> = files.iter().take(3).map(|file| name_text(file.file_name().unwrap_or_default())).collect();
     let more = if files.len() > names.len() { ", ..." } else { "" };
     let count = if files.len() == 1 { "1 file".to_owned() } else { format!("{} files", files.len()) };
-    let fact = format!("{count} of marks in a folder where none are read, but in marks/RATER/SESSION: {}{more}", names.join(", "));
+    let fact = format!(
+        "{count} of marks in a folder where none are read, but in marks/RATER/SESSION: {}{more}",
+        names.join(", ")
+    );
     let (rater, target) = (loose.rater.as_deref().unwrap_or(RATER), session.unwrap_or(SESSION));
     let remedy = if files.iter().all(|file| is_labelme(file)) {
         move_command(study_dir, &format!("marks/{rater}/{target}"), &loose.folder, files, is_all)

@@ -8,8 +8,8 @@ use ingest::{nfc, spelled_out};
 use model::{Problem, ProblemCode, Severity, Stage};
 use serde::{Deserialize, Serialize};
 
-use super::misplaced::{self, is_wrong_way_round};
 use super::StudyError;
+use super::misplaced::{self, is_wrong_way_round};
 
 /// session.toml: the settings of one session. Unknown keys are refused.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
