@@ -10,6 +10,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::StudyError;
+use super::misplaced::{self, is_wrong_way_round};
 
 /// session.toml: the settings of one session. Unknown keys are refused.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -92,8 +93,9 @@ pub(crate) fn stem_of(file: &str) -> String {
     Path::new(file).file_stem().map(|stem| nfc(stem.to_string_lossy())).unwrap_or_default()
 }
 
-/// The sessions of a study, in the order of their names.
-pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
+/// The sessions of a study, in the order of their names. `reads_marks` says whether files of marks are read, so that those in a wrong
+/// place are told.
+pub(super) fn find(study_dir: &Path, reads_marks: bool) -> Result<Vec<SessionDir>, StudyError> {
     let mut sessions: BTreeMap<String, SessionDir> = BTreeMap::new();
     let cards_dir = study_dir.join("cards");
     let cards = folders(&cards_dir)?;
@@ -113,14 +115,27 @@ pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
     if marks_dir.is_dir() {
         for rater in folders(&marks_dir)? {
             for marks in folders(&rater.path)? {
+                if is_wrong_way_round(&rater.name, &marks.name, |name| is_card(&sessions, name)) {
+                    continue; // it is told below
+                }
                 // Of sessions that look alike each has its exact name.
                 let name = if sessions.contains_key(&marks.exact) { &marks.exact } else { &marks.name };
+                if !sessions.contains_key(name) && marks_in(&marks.path).is_ok_and(|files| files.is_empty()) {
+                    continue; // neither a card nor marks
+                }
                 let session = sessions.entry(name.clone()).or_insert_with(|| SessionDir::new(name));
                 add_marks(session, &rater.name, marks.path, study_dir);
             }
         }
     }
+    if reads_marks {
+        misplaced::report(study_dir, &mut sessions);
+    }
     if sessions.is_empty() { Err(StudyError::NoSessions(cards_dir)) } else { Ok(sessions.into_values().collect()) }
+}
+
+fn is_card(sessions: &BTreeMap<String, SessionDir>, name: &str) -> bool {
+    sessions.get(name).is_some_and(|session| session.card.is_some())
 }
 
 /// Adds the folder of a rater's marks. Where the rater has one already, whose name is another form of the same, the first counts.
