@@ -141,7 +141,11 @@ fn four_corners_are_put_into_order() {
             let rim = rim_of(&format!(
                 r#"{{"label": "box/rim", "points": {points:?}, "shape_type": "{shape_type}", "direction": 0.78}}"#
             ));
-            let places = rim.unwrap().iter().map(|p| corners.iter().position(|c| c == p).unwrap()).collect::<Vec<_>>();
+            let places = rim
+                .unwrap()
+                .iter()
+                .map(|p| corners.iter().position(|c| (c[0] - p[0]).hypot(c[1] - p[1]) < 1e-9).unwrap())
+                .collect::<Vec<_>>();
             let is_next = |a: usize, b: usize| (a + 1) % 4 == b || (b + 1) % 4 == a;
             assert!((0..4).all(|i| is_next(places[i], places[(i + 1) % 4])), "{shape_type} {order:?}: {places:?}");
         }
