@@ -71,6 +71,7 @@ pub use fingerprint::{FileStamp, Fingerprint};
 pub use ingest::{Ingested, ingest_if_changed, ingest_session, survey_session};
 pub use key::{CardFingerprinter, INGEST_VERSION, inputs_key};
 pub use mcap_file::{WriteError, is_partial};
+pub use parse::image_orientation::{orientation_of, orientation_of_file};
 pub use picture::{JpegError, Picture, PictureError};
 pub use profile::Profile;
 pub use progress::{ByteBudget, IngestProgress, NoProgress};

@@ -1,6 +1,6 @@
 //! The outcome of the ingest of one session.
 
-use model::{FrameReason, Problem, UtcNs};
+use model::{FrameReason, Orientation, Problem, UtcNs};
 use serde::{Deserialize, Serialize};
 
 /// An image in the MCAP file.
@@ -16,6 +16,8 @@ pub struct ImageEntry {
     pub width_px: u32,
     /// Height.
     pub height_px: u32,
+    /// How EXIF tells viewers to turn it. All sizes and pixels of this program are those of the stored picture.
+    pub orientation: Orientation,
 }
 
 /// An image of the card that is not in the MCAP file.

@@ -62,6 +62,7 @@ coded_enum! {
         BytesAfterImage = "bytes_after_image": "bytes stand behind the end marker of a picture; the picture is used",
         WrongExtension = "wrong_extension": "the extension of a file is that of another encoding; the first bytes count",
         TimeFromOneSource = "time_from_one_source": "only the name or only the EXIF data give the time of an image, so nothing checks it",
+        TurnedImages = "turned_images": "EXIF tells viewers to turn or mirror images; they are measured as they are stored",
         GravityCalibrationApplied = "gravity_calibration_applied": "offsets and scales of the accelerometer were worked out and applied",
         GravityCalibrationRefused = "gravity_calibration_refused": "the accelerometer could not be calibrated from this recording; samples are used as recorded",
         NoImageWithPose = "no_image_with_pose": "no image of the session has a pose, so nothing can be measured",
@@ -69,6 +70,7 @@ coded_enum! {
         MarksTooLarge = "marks_too_large": "a file of marks is larger than any can be",
         MarksMalformed = "marks_malformed": "a file of marks is no LabelMe JSON",
         MarksOfOtherPicture = "marks_of_other_picture": "a file of marks is of a picture of another size",
+        MarksFrameUnknown = "marks_frame_unknown": "a picture is shown otherwise than it is stored, and nothing says in which of the two it was marked",
         BadMark = "bad_mark": "a shape cannot be a mark: its label, its kind or its number of points is wrong",
         MarksTwice = "marks_twice": "two files of one rater are of the same image",
         MarksWithoutImage = "marks_without_image": "the card has no image with the name of a file of marks",
@@ -173,6 +175,9 @@ impl ProblemCode {
             Self::TimeFromOneSource => {
                 "declare images.time from the one that all images have, if that is how the device writes them"
             }
+            Self::TurnedImages => {
+                "none needed; where marks are refused for it, say in which frame they are: [marks] frame"
+            }
             Self::GravityCalibrationApplied => {
                 "none needed; gravity_calibration = \"report\" leaves samples as they are"
             }
@@ -181,6 +186,9 @@ impl ProblemCode {
             Self::MarksUnreadable => "check its permissions",
             Self::MarksTooLarge => "check that it is a LabelMe file",
             Self::MarksMalformed => "save it from LabelMe again",
+            Self::MarksFrameUnknown => {
+                "set [marks] frame to stored or shown, as the tool that made the marks shows pictures"
+            }
             Self::MarksOfOtherPicture => "mark the picture of the card, or declare [marks] camera",
             Self::BadMark => "correct the shape in LabelMe (docs/study.md)",
             Self::MarksTwice => "keep one of them",

@@ -15,11 +15,13 @@ use serde_json::value::RawValue;
 use crate::json;
 use corners::FourCorners;
 pub use error::MarksError;
+pub use frame::{FrameFault, MarkedPicture, MarksFrame};
 use rims::Found;
 pub(crate) use write::{AutoRim, Shape as OutShape, text_of, text_of_shapes};
 
 mod corners;
 mod error;
+mod frame;
 mod write;
 
 /// A file of marks is never larger than this (LabelMe may embed the picture itself).
@@ -45,6 +47,8 @@ pub struct Marks {
 #[derive(Deserialize)]
 struct LabelMeFile<'a> {
     #[serde(borrow)]
+    version: Option<&'a RawValue>,
+    #[serde(borrow)]
     shapes: Vec<&'a RawValue>,
     #[serde(rename = "imageWidth", borrow)]
     width_px: Option<&'a RawValue>,
@@ -53,15 +57,23 @@ struct LabelMeFile<'a> {
 }
 
 impl LabelMeFile<'_> {
-    /// The width and height of the picture that was marked; `picture_px` where the file does not say them.
-    fn size_px(&self, [width, height]: [u32; 2]) -> Result<[u32; 2], serde_json::Error> {
-        let side = |name: &str, value: Option<&RawValue>, default: u32| {
-            let Some(value) = value else { return Ok(default) };
+    /// The width and height of the picture that was marked, each where the file says it.
+    fn size_px(&self) -> Result<[Option<u32>; 2], serde_json::Error> {
+        let side = |name: &str, value: Option<&RawValue>| {
+            let Some(value) = value else { return Ok(None) };
             let whole = json::text_of(Some(value)).and_then(|text| json::whole_number(&text)?.parse().ok());
             let odd = || Error::custom(format!("{name}: expected a whole number of pixels, got {}", value.get()));
-            whole.ok_or_else(odd)
+            whole.map(Some).ok_or_else(odd)
         };
-        Ok([side("imageWidth", self.width_px, width)?, side("imageHeight", self.height_px, height)?])
+        Ok([side("imageWidth", self.width_px)?, side("imageHeight", self.height_px)?])
+    }
+
+    /// The frame in which the program marks that wrote the file, where its version tells: LabelMe shows pictures turned since 4.0 at
+    /// the latest. Other programs that write such files have versions below 4, and do or do not.
+    fn frame_of_tool(&self) -> Option<MarksFrame> {
+        let version = json::text_of(self.version)?;
+        let major: u32 = version.split('.').next()?.trim().parse().ok()?;
+        (major >= 4).then_some(MarksFrame::Shown)
     }
 }
 
@@ -74,6 +86,14 @@ struct Shape {
     /// A key of this program's own, with the found rim; LabelMe keeps keys that it does not know.
     #[serde(rename = "aim_batch", default)]
     found: Option<serde_json::Value>,
+}
+
+impl Shape {
+    /// The shape, with its points carried over from a frame of the picture to the stored one.
+    fn to_stored(mut self, picture: &MarkedPicture, frame: MarksFrame) -> Self {
+        self.points.iter_mut().for_each(|point_px| *point_px = picture.to_stored(frame, *point_px));
+        self
+    }
 }
 
 /// The bytes of a file of marks, for [`parse`].
@@ -107,29 +127,27 @@ pub(crate) fn is_labelme(path: &Path) -> bool {
     })
 }
 
-/// The marks in the bytes of a LabelMe file. `path` is for messages; `picture_px` is the width and height of the pictures
-/// that were marked.
+/// The marks in the bytes of a LabelMe file, in the frame of the stored picture. `path` is for messages; `picture` is the one
+/// that was marked, or its width and height where it is upright.
 ///
 /// # Errors
 /// [`MarksError`] where nothing of the file can be used. A shape that is no mark is in [`Marks::refused`]; the others are
 /// kept.
-pub fn parse(bytes: &[u8], path: &Path, picture_px: [u32; 2]) -> Result<Marks, MarksError> {
+pub fn parse(bytes: &[u8], path: &Path, picture: impl Into<MarkedPicture>) -> Result<Marks, MarksError> {
+    let picture = picture.into();
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes); // a byte order mark, as some editors write
     let malformed = |source| MarksError::Malformed { path: path.to_owned(), source };
     let bytes = json::with_null_for_nan(bytes);
     let file: LabelMeFile<'_> = serde_json::from_slice(&bytes).map_err(malformed)?;
-    let [width, height] = picture_px;
-    let [got_width, got_height] = file.size_px(picture_px).map_err(malformed)?;
-    if [got_width, got_height] != picture_px {
-        return Err(MarksError::OtherPicture { path: path.to_owned(), got_width, got_height, width, height });
-    }
+    let stated_px = file.size_px().map_err(malformed)?;
+    let frame = frame_of_file(stated_px, file.frame_of_tool(), &picture, path)?;
     let mut objects: BTreeMap<String, Vec<Mark>> = BTreeMap::new();
     let (mut refused, mut found, mut four_corners) = (Vec::new(), BTreeMap::new(), Vec::new());
     for (number, value) in (1..).zip(&file.shapes) {
         let refuse =
             |label: &str, fact| MarksError::Shape { path: path.to_owned(), number, label: label.to_owned(), fact };
-        let shape: Shape = match serde_json::from_str(value.get()) {
-            Ok(shape) => shape,
+        let shape: Shape = match serde_json::from_str::<Shape>(value.get()) {
+            Ok(shape) => shape.to_stored(&picture, frame),
             Err(error) => {
                 refused.push(refuse("", format!("cannot be read: {error}")));
                 continue;
@@ -152,6 +170,27 @@ pub fn parse(bytes: &[u8], path: &Path, picture_px: [u32; 2]) -> Result<Marks, M
     }
     let objects = objects.into_iter().map(|(object, marks)| ObjectMarks { object, marks }).collect();
     Ok(Marks { objects, found, refused, four_corners })
+}
+
+/// The frame of the marks of a file that states these sides of its picture.
+fn frame_of_file(
+    stated_px: [Option<u32>; 2],
+    tool: Option<MarksFrame>,
+    picture: &MarkedPicture,
+    path: &Path,
+) -> Result<MarksFrame, MarksError> {
+    let [width, height] = picture.size_px;
+    let sides = match stated_px {
+        [None, None] => None,
+        // One side alone decides nothing where the picture is turned, and is compared with the stored one.
+        [stated_width, stated_height] => Some([stated_width.unwrap_or(width), stated_height.unwrap_or(height)]),
+    };
+    picture.frame_of(sides, tool).map_err(|fault| match (fault, sides) {
+        (FrameFault::OtherSize, Some([got_width, got_height])) => {
+            MarksError::OtherPicture { path: path.to_owned(), got_width, got_height, width, height }
+        }
+        _ => MarksError::UnknownFrame { path: path.to_owned(), fact: picture.unknown_frame_text() },
+    })
 }
 
 /// Nobody marks one object in one picture more often, or with more points; uncertainties take memory by marks times points.

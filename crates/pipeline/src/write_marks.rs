@@ -5,9 +5,10 @@ use std::io::{self, Write as _};
 use std::path::{Component, Path, PathBuf};
 
 use ingest::card::entry_named;
-use model::Stage;
+use ingest::orientation_of_file;
+use model::{Orientation, Stage};
 
-use crate::labelme::{AutoRim, text_of};
+use crate::labelme::{AutoRim, MarkedPicture, text_of};
 use crate::session::{Prepared, SessionOutput};
 use crate::study::{AUTO, SessionDir, Study, stem_of};
 use crate::work::{WorkError, WorkFolder};
@@ -64,7 +65,8 @@ pub fn write_marks(
         let refuse = |source| WriteMarksError::Kept { session: dir.name.clone(), source };
         let output: SessionOutput = serde_json::from_str(&text).map_err(refuse)?;
         if let (false, Ok(prepared)) = (output.auto.is_empty(), Prepared::new(study, dir, program)) {
-            let session = Writer { dir, prepared: &prepared, folder: there_or_new(&folder.join(AUTO), &dir.name) };
+            let session =
+                Writer { study, dir, prepared: &prepared, folder: there_or_new(&folder.join(AUTO), &dir.name) };
             session.write(&output.auto, &mut written)?;
         }
     }
@@ -73,6 +75,7 @@ pub fn write_marks(
 
 /// Writes the files of one session.
 struct Writer<'a> {
+    study: &'a Study,
     dir: &'a SessionDir,
     prepared: &'a Prepared,
     folder: PathBuf,
@@ -92,8 +95,9 @@ impl Writer<'_> {
                 continue;
             };
             let rims = auto.get(image).map(Vec::as_slice).unwrap_or_default();
-            let picture_px = self.prepared.marks_camera.1.size_px();
-            let text = text_of(rims, &picture_for(&self.folder, self.dir, self.prepared, image), picture_px)
+            let picture = marked_on_card(self.study, self.dir, self.prepared, image)
+                .map_err(|(path, source)| failed(&path, source))?;
+            let text = text_of(rims, &picture_for(&self.folder, self.dir, self.prepared, image), picture)
                 .map_err(io::Error::from);
             let path = there_or_new(&self.folder, &format!("{stem}.json"));
             let done =
@@ -109,12 +113,31 @@ impl Writer<'_> {
 pub(crate) fn picture_for(folder: &Path, dir: &SessionDir, prepared: &Prepared, image: &str) -> String {
     let beside = || image.rsplit('/').next().unwrap_or(image).to_owned();
     let is_recorded = prepared.camera == prepared.marks_camera.1;
-    let picture = dir
-        .card
-        .as_ref()
-        .filter(|_| is_recorded)
-        .map(|card| image.split('/').fold(card.clone(), |folder, part| there_or_new(&folder, part)));
+    let picture = on_card(dir, image).filter(|_| is_recorded);
     picture.and_then(|picture| relative_path(folder, &picture)).unwrap_or_else(beside)
+}
+
+/// The file of a picture of a session's card.
+fn on_card(dir: &SessionDir, image: &str) -> Option<PathBuf> {
+    let card = dir.card.as_ref()?;
+    Some(image.split('/').fold(card.clone(), |folder, part| there_or_new(&folder, part)))
+}
+
+/// A picture of a session's card, as somebody may mark it.
+///
+/// # Errors
+/// The file, and the system's error, where it cannot be read.
+pub(crate) fn marked_on_card(
+    study: &Study,
+    dir: &SessionDir,
+    prepared: &Prepared,
+    image: &str,
+) -> Result<MarkedPicture, (PathBuf, io::Error)> {
+    let orientation = match on_card(dir, image) {
+        Some(path) => orientation_of_file(&path).map_err(|error| (path, error))?,
+        None => Orientation::Upright,
+    };
+    Ok(prepared.marked_picture(study, orientation))
 }
 
 /// The file or folder of this name, in whatever Unicode form it is there; else the place for a new one.

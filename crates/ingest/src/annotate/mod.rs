@@ -116,7 +116,7 @@ pub fn annotate_session<'n>(
     // Each after the messages of an earlier time, as far as images give one.
     let mut log = what.log.iter().peekable();
     for image in &images {
-        let message = reader.raw_image(image)?;
+        let message = reader.raw_image(image)?.upright(what.recording)?;
         let jpeg = message.image(what.recording)?;
         let noted = notes(image, &jpeg).ok_or(AnnotateError::Stopped)?;
         file.begin_image().map_err(refuse)?;

@@ -9,6 +9,7 @@ use model::{CameraSpec, FrameReason, UtcNs};
 use super::{CardFile, Inputs, open_hashing, size};
 use crate::parse::image_extent::{self, ImageExtent};
 use crate::parse::image_header::{self, Encoding};
+use crate::parse::image_orientation::orientation_of;
 use crate::parse::image_time::{self, TimeError};
 use crate::profile::ImageTime;
 use crate::progress::IngestProgress;
@@ -104,7 +105,9 @@ pub(crate) fn judge_image(
         return Err(dropped(FrameReason::WrongSize, detail));
     }
     let (time, has_one_time) = known.map_err(|error| dropped(reason_of(&error), error.to_string()))?;
-    let entry = ImageEntry { file: file.name.clone(), time, bytes: bytes.len() as u64, width_px, height_px };
+    let orientation = orientation_of(&bytes);
+    let entry =
+        ImageEntry { file: file.name.clone(), time, bytes: bytes.len() as u64, width_px, height_px, orientation };
     let has_wrong_extension = has_wrong_extension(&file.name, encoding);
     let remarks = Remarks { bytes_after: bytes_after(extent, &bytes), has_wrong_extension, has_one_time };
     Ok(TakenImage { entry, encoding, bytes, remarks })

@@ -1,8 +1,9 @@
 //! Oddities of the images that were used: one note per oddity and session.
 
-use model::{Problem, ProblemCode};
+use model::{Orientation, Problem, ProblemCode};
 
 use crate::card::{Place, Remarks, amount, size};
+use crate::summary::ImageEntry;
 
 /// Oddities of a session's images.
 #[derive(Debug, Default)]
@@ -10,6 +11,7 @@ pub(super) struct ImageTally {
     bytes_after: Tally,
     wrong_extension: Tally,
     one_time: Tally,
+    turned: Tally,
 }
 
 /// The images with one oddity.
@@ -31,8 +33,12 @@ impl Tally {
 }
 
 impl ImageTally {
-    /// Counts an image that was used; `bytes` is the size of its file.
-    pub fn add(&mut self, file: &str, bytes: u64, remarks: Remarks) {
+    /// Counts an image that was used.
+    pub fn add(&mut self, image: &ImageEntry, remarks: Remarks) {
+        let (file, bytes) = (image.file.as_str(), image.bytes);
+        if image.orientation != Orientation::Upright {
+            self.turned.add(file, bytes);
+        }
         if remarks.bytes_after > 0 {
             self.bytes_after.add(file, remarks.bytes_after);
         }
@@ -46,7 +52,7 @@ impl ImageTally {
 
     /// The notes, each at the first image that it is about.
     pub fn notes(&self, place: &Place) -> Vec<Problem> {
-        let Self { bytes_after, wrong_extension, one_time } = self;
+        let Self { bytes_after, wrong_extension, one_time, turned } = self;
         let after = format!(
             "{} behind the end marker of {} image{}, which are used; the bytes are kept as they are",
             size(bytes_after.bytes),
@@ -63,7 +69,13 @@ impl ImageTally {
             amount(one_time.images, "image", one_time.bytes)
         );
         let one_remedy = "declare images.time from the one that all images have, if that is how the device writes them";
+        let turn = format!(
+            "EXIF tells viewers to turn or mirror {}; they are measured as they are stored, and marks are carried over",
+            amount(turned.images, "image", turned.bytes)
+        );
+        let turn_remedy = "if marks are refused for it, say in which frame they are ([marks] frame in study.toml)";
         [
+            (ProblemCode::TurnedImages, turned, turn, turn_remedy),
             (ProblemCode::BytesAfterImage, bytes_after, after, after_remedy),
             (ProblemCode::WrongExtension, wrong_extension, extension, "rename them if another program must read them"),
             (ProblemCode::TimeFromOneSource, one_time, one, one_remedy),

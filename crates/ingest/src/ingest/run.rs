@@ -133,7 +133,7 @@ impl<'a> Run<'a> {
             let judged = bytes.and_then(|bytes| judge_image(file, bytes, time, &source.time_zone, &source.camera_spec));
             match judged {
                 Ok(TakenImage { entry, encoding, bytes, remarks }) => {
-                    tally.add(&entry.file, entry.bytes, remarks);
+                    tally.add(&entry, remarks);
                     self.writer.image(entry.time, encoding, bytes).map_err(|error| write_error(self.out, error))?;
                     entries.push(entry);
                 }

@@ -53,6 +53,9 @@ pub(crate) struct ImageFile {
     pub width_px: u32,
     #[prost(uint32, tag = "4")]
     pub height_px: u32,
+    /// EXIF's number, 1 to 8; 1 where the file gives none.
+    #[prost(uint32, tag = "5")]
+    pub orientation: u32,
 }
 
 #[cfg(test)]
@@ -77,6 +80,12 @@ mod tests {
         reads_back(&AccelerationBlock { step_ns, offset_ns: offset_ns.clone(), x_g, y_g, z_g });
         reads_back(&RangeBlock { step_ns: 7_812_500.0, offset_ns: vec![], range_mm: vec![8190.0, 512.0] });
         reads_back(&ExtraBlock { step_ns, offset_ns, value: vec![1.0, 2.0, 3.0] });
-        reads_back(&ImageFile { file: "IMAGES/1.JPG".to_owned(), bytes: 300_000, width_px: 2592, height_px: 1944 });
+        reads_back(&ImageFile {
+            file: "IMAGES/1.JPG".to_owned(),
+            bytes: 300_000,
+            width_px: 2592,
+            height_px: 1944,
+            orientation: 6,
+        });
     }
 }

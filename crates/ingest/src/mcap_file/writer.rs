@@ -187,6 +187,7 @@ impl SessionWriter {
                 bytes: entry.bytes,
                 width_px: entry.width_px,
                 height_px: entry.height_px,
+                orientation: entry.orientation.exif(),
             };
             self.write(topic::FILE, entry.time, &message)?;
         }

@@ -11,6 +11,7 @@ mod exif_time;
 mod fault;
 pub mod image_extent;
 pub mod image_header;
+pub mod image_orientation;
 pub mod image_time;
 mod jpeg_extent;
 mod jpeg_tables;

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use model::{CameraSpec, Problem, UtcNs};
+use model::{CameraSpec, Orientation, Problem, UtcNs};
 
 use crate::mcap_file::messages::ImageFile;
 use crate::mcap_file::metadata::{Facts, SEAL};
@@ -189,9 +189,11 @@ impl SessionReader {
         for chunk in self.index.chunks_of(&[topic::FILE]) {
             chunk::for_each_message(&self.file, chunk, |header, data| {
                 if self.index.topic(header.channel_id) == Some(topic::FILE) {
-                    let ImageFile { file, bytes, width_px, height_px } = prost::Message::decode(data)?;
+                    let ImageFile { file, bytes, width_px, height_px, orientation } = prost::Message::decode(data)?;
                     let time = chunk::time_of(header)?;
-                    images.push((ImageEntry { file, time, bytes, width_px, height_px }, header.sequence));
+                    let orientation = Orientation::from_exif(orientation).unwrap_or_default();
+                    let entry = ImageEntry { file, time, bytes, width_px, height_px, orientation };
+                    images.push((entry, header.sequence));
                 }
                 Ok(())
             })?;

@@ -9,6 +9,7 @@ use super::summary::ChunkAt;
 use super::{Damage, Index, ReadError, SessionReader, chunk};
 use crate::mcap_file::metadata::Records;
 use crate::mcap_file::topic;
+use crate::parse::image_orientation;
 use crate::summary::ImageEntry;
 
 /// A message that is not decoded.
@@ -25,6 +26,16 @@ impl RawMessage {
     pub fn image(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
         let image: Result<CompressedImage, _> = prost::Message::decode(self.data.as_slice());
         Ok(image.map_err(|error| ReadError::new(path, error.into()))?.data.into())
+    }
+
+    /// The message of an image, marked as upright, so that every viewer shows it in the frame of what is drawn over it. `path`: the
+    /// file that it is from.
+    pub fn upright(self, path: &Path) -> Result<Self, ReadError> {
+        let image: Result<CompressedImage, _> = prost::Message::decode(self.data.as_slice());
+        let mut image = image.map_err(|error| ReadError::new(path, error.into()))?;
+        let Some(upright) = image_orientation::upright(&image.data) else { return Ok(self) };
+        image.data = upright.into();
+        Ok(Self { data: prost::Message::encode_to_vec(&image), ..self })
     }
 }
 

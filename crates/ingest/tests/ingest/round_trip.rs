@@ -4,7 +4,7 @@ use aim_batch_ingest::{
     Counts, INGEST_VERSION, ImageEntry, Ingested, NoProgress, Profile, Sample, SessionReader, ingest_if_changed,
     ingest_is_current, inputs_key,
 };
-use model::UtcNs;
+use model::{Orientation, UtcNs};
 
 use crate::support::{NOON_S, Study, acceleration_packet, files_in, jpeg, jpeg_with_exif, png, range_packet, samples};
 
@@ -61,6 +61,7 @@ fn images_are_listed_in_order_of_time_and_come_back_unchanged() {
         bytes: bytes as u64,
         width_px: 32,
         height_px: 24,
+        orientation: Orientation::Upright,
     };
     let expected = [
         entry("IMAGES/20250601T120000.000Z.jpg", 0, first.len()),

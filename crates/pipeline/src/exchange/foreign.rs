@@ -2,11 +2,15 @@
 
 use std::collections::BTreeMap;
 
+use crate::labelme::MarksFrame;
+
 /// The content of a file.
 #[derive(Debug, Default, PartialEq)]
 pub struct Foreign {
     /// The pictures in the order of the file, with what is drawn on them.
     pub images: Vec<ForeignImage>,
+    /// The frame of pictures in which the tool marks, where that is known.
+    pub frame: Option<MarksFrame>,
     /// Annotations that belong to no picture, or could not be read.
     pub refused: Vec<Refused>,
 }

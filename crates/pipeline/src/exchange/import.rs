@@ -12,7 +12,7 @@ use super::label::Names;
 use super::pictures::{Picture, Pictures};
 use super::target::{Target, There};
 use super::{ExchangeError, read};
-use crate::labelme::{self, MarksError};
+use crate::labelme::{self, FrameFault, MarkedPicture, MarksError, MarksFrame};
 use crate::study::{AUTO, Study};
 use crate::write_marks::write_whole;
 
@@ -29,6 +29,9 @@ pub struct ImportOptions {
     pub renamed: BTreeMap<String, String>,
     /// Labels that are no marks, and are meant to be passed over.
     pub ignored: BTreeSet<String>,
+    /// The frame of the marks on pictures that EXIF tells viewers to turn, where neither the tool nor the size shows it; the study's
+    /// when left out.
+    pub frame: Option<MarksFrame>,
     /// Whether named points are taken that are marked as hidden.
     pub with_hidden: bool,
     /// Whether files that hold other marks are written over.
@@ -68,6 +71,8 @@ pub fn import(study: &Study, file: &Path, options: &ImportOptions) -> Result<Imp
     check_session(study, options.session.as_deref())?;
     let foreign = read(&labelme::read_bytes(file)?, file)?;
     let import = Import {
+        study,
+        tool: foreign.frame,
         names: Names::new(study.objects.keys(), options.renamed.clone()),
         pictures: Pictures::list(study, options.session.as_deref(), &options.program),
         options,
@@ -117,6 +122,20 @@ fn at_image(image: &ForeignImage, fact: String) -> Refused {
     Refused { place: format!("{}, '{}' ({count})", image.place, short(&image.name)), fact }
 }
 
+/// The reason why the frame of an image's marks is not known.
+fn frame_fact(fault: FrameFault, image: &ForeignImage, picture: &MarkedPicture) -> String {
+    match (fault, image.size_px) {
+        (FrameFault::OtherSize, Some([got_width, got_height])) => {
+            let [width, height] = picture.size_px;
+            format!(
+                "marked on a picture of {got_width} x {got_height} px, but the camera's are {width} x {height}: mark the \
+                 original pictures, or name the camera of the marked ones ([marks] camera in study.toml)"
+            )
+        }
+        _ => picture.unknown_frame_text(),
+    }
+}
+
 fn check_session(study: &Study, session: Option<&str>) -> Result<(), ExchangeError> {
     let with_card = || study.sessions.iter().filter(|dir| dir.card.is_some()).map(|dir| dir.name.as_str());
     match session.filter(|session| with_card().all(|name| name != *session)) {
@@ -135,6 +154,9 @@ fn is_rater(name: &str) -> bool {
 }
 
 struct Import<'a> {
+    study: &'a Study,
+    /// The frame in which the tool marks, where that is known.
+    tool: Option<MarksFrame>,
     names: Names,
     pictures: Pictures<'a>,
     options: &'a ImportOptions,
@@ -165,26 +187,42 @@ impl Import<'_> {
                 return Ok(());
             }
         };
-        let target = Target::new(self.options, session.dir, prepared, &picture.file);
-        let picture_px = target.picture_px();
+        let target = match Target::new(self.options, self.study, session.dir, prepared, &picture.file) {
+            Ok(target) => target,
+            Err(fact) => {
+                imported.refused.push(at_image(image, fact));
+                return Ok(());
+            }
+        };
         if let Some(fault) = image.fault.as_ref().filter(|_| !image.annotations.is_empty()) {
             imported.refused.push(at_image(image, fault.clone()));
             return Ok(());
         }
-        if let Some([got_width, got_height]) = image.size_px.filter(|size_px| *size_px != picture_px) {
-            let [width, height] = picture_px;
-            let fact = format!(
-                "marked on a picture of {got_width} x {got_height} px, but the camera's are {width} x {height}: mark the \
-                 original pictures, or name the camera of the marked ones ([marks] camera in study.toml)"
-            );
-            imported.refused.push(at_image(image, fact));
-            return Ok(());
-        }
-        let placed = self.marks(image, picture_px, imported);
+        let marked = MarkedPicture { frame: self.options.frame.or(target.picture.frame), ..target.picture };
+        let frame = match marked.frame_of(image.size_px, self.tool) {
+            Ok(frame) => frame,
+            Err(_) if image.annotations.is_empty() => return Ok(()),
+            Err(fault) => {
+                imported.refused.push(at_image(image, frame_fact(fault, image, &target.picture)));
+                return Ok(());
+            }
+        };
+        let placed = self.marks(image, &target.picture, frame, imported);
         self.write(image, &target, placed, imported)
     }
 
-    fn marks(&self, image: &ForeignImage, picture_px: [u32; 2], imported: &mut Imported) -> Vec<Placed> {
+    fn marks(
+        &self,
+        image: &ForeignImage,
+        picture: &MarkedPicture,
+        frame: MarksFrame,
+        imported: &mut Imported,
+    ) -> Vec<Placed> {
+        let picture_px = picture.size_in(frame);
+        let carried = |mut mark: ConvertedMark| {
+            mark.points_px.iter_mut().for_each(|point_px| *point_px = picture.to_stored(frame, *point_px));
+            mark
+        };
         let mut placed = Vec::new();
         for annotation in &image.annotations {
             if self.options.ignored.contains(&nfc(&annotation.label)) {
@@ -196,7 +234,8 @@ impl Import<'_> {
                 Ok(converted) => {
                     let note = |fact| Refused { place: place.clone(), fact };
                     imported.notes.extend(converted.notes.into_iter().map(note));
-                    placed.extend(converted.marks.into_iter().map(|mark| Placed { place: place.clone(), mark }));
+                    let marks = converted.marks.into_iter().map(carried);
+                    placed.extend(marks.map(|mark| Placed { place: place.clone(), mark }));
                 }
                 Err(fact) => imported.refused.push(Refused { place, fact }),
             }
@@ -253,7 +292,7 @@ fn accepted(
     imported: &mut Imported,
 ) -> Result<(Vec<Placed>, labelme::Marks), ExchangeError> {
     let text = target.text(placed.iter().map(|placed| &placed.mark))?;
-    let mut marks = labelme::parse(text.as_bytes(), &target.path, target.picture_px())?;
+    let mut marks = labelme::parse(text.as_bytes(), &target.path, target.picture)?;
     let mut refused = BTreeMap::new();
     for error in std::mem::take(&mut marks.refused) {
         if let MarksError::Shape { number, fact, .. } = error {

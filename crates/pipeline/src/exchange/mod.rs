@@ -21,6 +21,7 @@ mod target;
 
 use std::path::Path;
 
+use crate::labelme::MarksFrame;
 pub use convert::{Converted, ConvertedMark, marks_of};
 pub use error::ExchangeError;
 pub use export::{ExportOptions, Exported, Format, export};
@@ -35,12 +36,13 @@ pub use label::Names;
 pub fn read(bytes: &[u8], path: &Path) -> Result<Foreign, ExchangeError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes); // a byte order mark, as some editors write
     let first = bytes.iter().find(|byte| !byte.is_ascii_whitespace());
-    let parse = match first {
-        Some(b'<') => cvat::parse,
-        Some(b'{') => coco::parse,
+    // CVAT shows pictures turned as EXIF says. JSON of COCO is written by many tools.
+    let (parse, frame): (fn(&str, &Path) -> _, _) = match first {
+        Some(b'<') => (cvat::parse, Some(MarksFrame::Shown)),
+        Some(b'{') => (coco::parse, None),
         _ => return Err(ExchangeError::Unknown { path: path.to_owned(), is_zip: bytes.starts_with(b"PK\x03\x04") }),
     };
     let text = std::str::from_utf8(bytes)
         .map_err(|error| ExchangeError::NotUtf8 { path: path.to_owned(), offset: error.valid_up_to() })?;
-    parse(text, path)
+    parse(text, path).map(|foreign: Foreign| Foreign { frame, ..foreign })
 }

@@ -8,15 +8,17 @@ use ingest::card::entry_named;
 use super::ExchangeError;
 use super::convert::ConvertedMark;
 use super::import::ImportOptions;
-use crate::labelme::{self, OutShape};
+use crate::labelme::{self, MarkedPicture, OutShape};
 use crate::session::Prepared;
-use crate::study::{SessionDir, stem_of};
-use crate::write_marks::picture_for;
+use crate::study::{SessionDir, Study, stem_of};
+use crate::write_marks::{marked_on_card, picture_for};
 
 /// The LabelMe file of an image.
 pub(super) struct Target<'a> {
     pub folder: PathBuf,
     pub path: PathBuf,
+    /// The picture that was marked.
+    pub picture: MarkedPicture,
     dir: &'a SessionDir,
     prepared: &'a Prepared,
     /// The picture on the card.
@@ -32,7 +34,15 @@ pub(super) enum There {
 }
 
 impl<'a> Target<'a> {
-    pub fn new(options: &ImportOptions, dir: &'a SessionDir, prepared: &'a Prepared, file: &'a str) -> Self {
+    pub fn new(
+        options: &ImportOptions,
+        study: &Study,
+        dir: &'a SessionDir,
+        prepared: &'a Prepared,
+        file: &'a str,
+    ) -> Result<Self, String> {
+        let picture = marked_on_card(study, dir, prepared, file)
+            .map_err(|(path, error)| format!("cannot read the picture: {error}: {}", path.display()))?;
         // A folder or file that is there keeps its name, in whatever Unicode form. Else this is the card's own name, whatever
         // bytes it consists of.
         let there_or =
@@ -42,11 +52,7 @@ impl<'a> Target<'a> {
         let folder = there_or(&rater, &dir.name, session);
         let file_name = format!("{}.json", stem_of(file));
         let path = there_or(&folder, &file_name, file_name.as_ref());
-        Self { folder, path, dir, prepared, file }
-    }
-
-    pub fn picture_px(&self) -> [u32; 2] {
-        self.prepared.marks_camera.1.size_px()
+        Ok(Self { folder, path, picture, dir, prepared, file })
     }
 
     /// The text of the file. It holds the way to the picture, which is known once there is a folder for the marks.
@@ -54,7 +60,7 @@ impl<'a> Target<'a> {
         let shapes = marks
             .map(|ConvertedMark { label, shape_type, points_px }| OutShape::new(label.clone(), shape_type, points_px));
         let picture = picture_for(&self.folder, self.dir, self.prepared, self.file);
-        let text = labelme::text_of_shapes(shapes.collect(), &picture, self.picture_px());
+        let text = labelme::text_of_shapes(shapes.collect(), &picture, self.picture);
         text.map_err(|error| self.failed(error.into()))
     }
 
@@ -63,7 +69,7 @@ impl<'a> Target<'a> {
             return Ok(None);
         }
         let bytes = labelme::read_bytes(&self.path)?;
-        Ok(Some(match labelme::parse(&bytes, &self.path, self.picture_px()) {
+        Ok(Some(match labelme::parse(&bytes, &self.path, self.picture) {
             Ok(marks) if marks.refused.is_empty() => There::Marks(marks.objects),
             Ok(_) | Err(_) => There::Other,
         }))

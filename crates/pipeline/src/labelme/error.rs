@@ -49,6 +49,14 @@ pub enum MarksError {
         /// The height of the camera's pictures.
         height: u32,
     },
+    /// The picture is shown otherwise than it is stored, and either may have been marked.
+    #[error("{fact}: {}", path.display())]
+    UnknownFrame {
+        /// The file.
+        path: PathBuf,
+        /// The fault, and what to do.
+        fact: String,
+    },
     /// One of its shapes is no mark.
     #[error("shape {number} ('{label}'): {fact}: {}", path.display())]
     Shape {
@@ -72,6 +80,7 @@ impl MarksError {
             Self::TooLarge { .. } => ProblemCode::MarksTooLarge,
             Self::Malformed { .. } => ProblemCode::MarksMalformed,
             Self::OtherPicture { .. } => ProblemCode::MarksOfOtherPicture,
+            Self::UnknownFrame { .. } => ProblemCode::MarksFrameUnknown,
             Self::Shape { .. } => ProblemCode::BadMark,
         }
     }

@@ -1,10 +1,14 @@
 //! Writes LabelMe files that a person can open, check and correct, from found rims and from marks of other tools.
 
+use std::borrow::Cow;
+
 use model::{Feature, Mark, ObjectMarks};
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
 use rims::Found;
+
+use super::frame::MarkedPicture;
 
 /// The version of LabelMe whose files these are like.
 const LABELME_VERSION: &str = "5.4.1";
@@ -48,7 +52,7 @@ struct NoFlags {}
 #[derive(Serialize)]
 pub(crate) struct Shape<'a> {
     label: String,
-    points: &'a [[f64; 2]],
+    points: Cow<'a, [[f64; 2]]>,
     group_id: Option<()>,
     shape_type: &'static str,
     flags: NoFlags,
@@ -64,22 +68,33 @@ impl<'a> Shape<'a> {
 
     /// A shape; `shape_type` is LabelMe's word, and `points` count pixels as LabelMe does.
     pub fn new(label: String, shape_type: &'static str, points: &'a [[f64; 2]]) -> Self {
+        let points = Cow::Borrowed(points);
         Self { label, points, group_id: None, shape_type, flags: NoFlags {}, aim_batch: None }
     }
 }
 
-/// The text of a file with these rims. `image_path` is the way to the picture from where the file will be, `picture_px` the
-/// picture's width and height.
-pub(crate) fn text_of(rims: &[AutoRim], image_path: &str, picture_px: [u32; 2]) -> serde_json::Result<String> {
-    text_of_shapes(rims.iter().map(Shape::from_rim).collect(), image_path, picture_px)
+/// The text of a file with these rims. `image_path` is the way to the picture from where the file will be. The rims are in
+/// the frame of the stored picture, and the text is in the one that LabelMe shows.
+pub(crate) fn text_of(
+    rims: &[AutoRim],
+    image_path: &str,
+    picture: impl Into<MarkedPicture>,
+) -> serde_json::Result<String> {
+    text_of_shapes(rims.iter().map(Shape::from_rim).collect(), image_path, picture)
 }
 
 /// The text of a file with these shapes; see [`text_of`].
 pub(crate) fn text_of_shapes(
-    shapes: Vec<Shape<'_>>,
+    mut shapes: Vec<Shape<'_>>,
     image_path: &str,
-    [image_width, image_height]: [u32; 2],
+    picture: impl Into<MarkedPicture>,
 ) -> serde_json::Result<String> {
+    let picture = picture.into();
+    let frame = picture.written_frame();
+    let [image_width, image_height] = picture.size_in(frame);
+    for point_px in shapes.iter_mut().flat_map(|shape| shape.points.to_mut()) {
+        *point_px = picture.from_stored(frame, *point_px);
+    }
     let (version, flags, image_data) = (LABELME_VERSION, NoFlags {}, None);
     let file = File { version, flags, shapes, image_path, image_data, image_height, image_width };
     serde_json::to_string_pretty(&file).map(|text| text + "\n")

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::calibration::CalibrationFile;
 use crate::inputs::{sha256_of_bytes, sha256_of_file};
+use crate::labelme::MarksFrame;
 use crate::session::Prepared;
 use crate::signals::ReadingSettings;
 use crate::study::{
@@ -57,6 +58,8 @@ struct SearchedParts<'a> {
     uncertainty: &'a UncertaintySpec,
     calibration: Option<&'a CalibrationFile>,
     marks_camera: &'a CameraSpec,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    marks_frame: Option<MarksFrame>,
     search: Option<SearchParts<'a>>,
 }
 
@@ -115,7 +118,7 @@ impl<'a> MeasureParts<'a> {
             tables: _,
         } = &study.spec;
         // The camera of the marks is here as the file that it names.
-        let MarksSpec { camera: _, source, min_confidence, min_diameter_mm, shapes } = marks;
+        let MarksSpec { camera: _, frame, source, min_confidence, min_diameter_mm, shapes } = marks;
         let search = source.searches().then_some(SearchParts {
             version: rims::VERSION,
             min_confidence: *min_confidence,
@@ -134,6 +137,7 @@ impl<'a> MeasureParts<'a> {
             uncertainty,
             calibration: study.calibration.as_ref(),
             marks_camera: &prepared.marks_camera.0,
+            marks_frame: *frame,
             search,
         };
         Self {

@@ -4,21 +4,28 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ingest::card::Card;
-use model::Problem;
+use model::{Orientation, Problem};
 
 use super::frames::Session;
-use crate::labelme;
+use crate::labelme::{self, MarkedPicture};
 use crate::study::{marks_in, misplaced, move_command, stem_of};
 
 /// A problem for each folder of the card in which files of marks lie beside their pictures and are not among the study's marks.
-pub(super) fn marks_beside_pictures(session: &Session<'_>, is_image: impl Fn(&str) -> bool) -> Vec<Problem> {
+/// `orientation_of` gives the orientation of the image with a stem, where the card has one.
+pub(super) fn marks_beside_pictures(
+    session: &Session<'_>,
+    orientation_of: impl Fn(&str) -> Option<Orientation>,
+) -> Vec<Problem> {
     let Some(Ok(card)) = session.dir.card.as_deref().map(Card::list) else { return Vec::new() };
     let mut by_folder: BTreeMap<PathBuf, (Vec<PathBuf>, usize)> = BTreeMap::new();
     for file in card.files {
         let is_json = file.name.rsplit_once('.').is_some_and(|(_, extension)| extension.eq_ignore_ascii_case("json"));
         let (true, Some(folder)) = (is_json && !file.name.starts_with('.'), file.path.parent()) else { continue };
         let (marks, others) = by_folder.entry(folder.to_owned()).or_default();
-        if is_image(&stem_of(&file.name)) && labelme::is_labelme(&file.path) && !is_among_marks(session, &file.path) {
+        let picture = orientation_of(&stem_of(&file.name)).map(|orientation| session.marked_picture(orientation));
+        if picture
+            .is_some_and(|picture| labelme::is_labelme(&file.path) && !is_among_marks(session, picture, &file.path))
+        {
             marks.push(file.path);
         } else {
             *others += 1;
@@ -29,10 +36,10 @@ pub(super) fn marks_beside_pictures(session: &Session<'_>, is_image: impl Fn(&st
 }
 
 /// Whether a rater has the same marks for the picture.
-fn is_among_marks(session: &Session<'_>, beside: &Path) -> bool {
+fn is_among_marks(session: &Session<'_>, picture: MarkedPicture, beside: &Path) -> bool {
     let objects = |path: &Path| {
         let bytes = labelme::read_bytes(path).ok()?;
-        labelme::parse(&bytes, path, session.marks_camera.size_px()).ok().map(|marks| marks.objects)
+        labelme::parse(&bytes, path, picture).ok().map(|marks| marks.objects)
     };
     let Some(own) = objects(beside) else { return false };
     let stem = stem_of(&beside.to_string_lossy());

@@ -4,11 +4,12 @@
 //! - Output: a [`Session`], whose frames hold signals, pose and the one reason that the ledger gives.
 
 use ingest::{DroppedImage, ImageEntry};
-use model::{Camera, FrameFlag, InputSigma};
+use model::{Camera, FrameFlag, InputSigma, Orientation};
 
 use super::prepared::Prepared;
 use super::recording::Recording;
 use crate::calibration::inputs_after;
+use crate::labelme::MarkedPicture;
 use crate::signals::{FrameSignals, Reading};
 use crate::study::{SessionDir, SessionSpec, Study};
 
@@ -25,6 +26,8 @@ pub(super) struct Session<'a> {
     pub spec: SessionSpec,
     /// The camera of the pictures that people marked.
     pub marks_camera: Camera,
+    /// A marked picture that is upright.
+    marked_upright: MarkedPicture,
     pub frames: Vec<Frame>,
     pub dropped: Vec<DroppedImage>,
 }
@@ -33,7 +36,13 @@ impl<'a> Session<'a> {
     pub(super) fn new(study: &'a Study, dir: &'a SessionDir, prepared: &Prepared, recording: Recording) -> Self {
         let frames = frames(study, prepared, &recording);
         let (spec, marks_camera) = (prepared.spec.clone(), prepared.marks_camera.1);
-        Self { study, dir, spec, marks_camera, frames, dropped: recording.dropped }
+        let marked_upright = prepared.marked_picture(study, Orientation::Upright);
+        Self { study, dir, spec, marks_camera, marked_upright, frames, dropped: recording.dropped }
+    }
+
+    /// A picture that people marked, by its EXIF orientation on the card.
+    pub(super) fn marked_picture(&self, orientation: Orientation) -> MarkedPicture {
+        MarkedPicture { orientation, ..self.marked_upright }
     }
 
     /// The path of a file of the card, relative to the study.

@@ -108,6 +108,7 @@ mod tests {
             bytes: 1,
             width_px: 1,
             height_px: 1,
+            orientation: model::Orientation::Upright,
         };
         times_s.map(image).collect()
     }

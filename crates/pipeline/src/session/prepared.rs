@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use ingest::SessionSource;
-use model::{Camera, CameraSpec, Problem, ProblemCode, Severity, Stage};
+use model::{Camera, CameraSpec, Orientation, Problem, ProblemCode, Severity, Stage};
 
 use super::problems::{MARKS_CAMERA_FACT, bad_camera, card_out_of_reach, link_out_of_study, missing_card};
 use crate::inputs::sha256_of_file;
+use crate::labelme::MarkedPicture;
 use crate::signals::PoseSettings;
 use crate::study::{SessionDir, SessionSpec, Study};
 
@@ -48,6 +49,13 @@ impl Prepared {
             program: program.to_owned(),
         };
         Ok(Self { spec, source, camera: camera.1, marks_camera, session_toml_sha256 })
+    }
+
+    /// A picture of the session that people marked, by its EXIF orientation on the card.
+    pub fn marked_picture(&self, study: &Study, orientation: Orientation) -> MarkedPicture {
+        let marks_camera = &self.marks_camera.1;
+        let (size_px, is_copy) = (marks_camera.size_px(), self.camera != *marks_camera);
+        MarkedPicture { size_px, orientation, frame: study.spec.marks.frame, is_copy }
     }
 
     /// The settings by which readings become a pose and a choice; `mount_pitch_deg` is the device profile's.

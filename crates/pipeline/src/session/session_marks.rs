@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use model::{FrameReason, ObjectMarks, Problem, ProblemCode, Severity, Stage};
+use model::{FrameReason, ObjectMarks, Orientation, Problem, ProblemCode, Severity, Stage};
 
 use super::beside::marks_beside_pictures;
 use super::frames::Session;
@@ -61,7 +61,8 @@ impl SessionMarks {
         inputs_sha256: &mut BTreeMap<String, String>,
     ) {
         let images = images_by_stem(session);
-        problems.extend(marks_beside_pictures(session, |stem| images.contains_key(stem)));
+        problems
+            .extend(marks_beside_pictures(session, |stem| images.get(stem)?.first().map(|image| image.orientation)));
         for (rater, dir) in &session.dir.marks {
             for path in files_of(session, dir, problems) {
                 let place = session.study.relative(&path);
@@ -93,10 +94,12 @@ impl SessionMarks {
         };
         let bytes = labelme::read_bytes(path).map_err(refuse)?;
         inputs_sha256.insert(place.clone(), sha256_of_bytes(&bytes));
-        let mut marks = labelme::parse(&bytes, path, session.marks_camera.size_px()).map_err(refuse)?;
+        let image = image_of(images, &stem_of(&path.to_string_lossy()), &place);
+        let orientation = image.as_ref().map_or(Orientation::Upright, |image| image.orientation);
+        let mut marks = labelme::parse(&bytes, path, session.marked_picture(orientation)).map_err(refuse)?;
         marks.refuse_four_corners(|object| session.study.is_round(object));
         problems.extend(marks.refused.into_iter().map(refuse));
-        let image = image_of(images, &stem_of(&path.to_string_lossy()), &place)?;
+        let image = image?.file;
         let with_found = |of: ObjectMarks| {
             let found = marks.found.get(&of.object).copied();
             (of, found)
@@ -166,14 +169,23 @@ fn files_of(session: &Session<'_>, dir: &Path, problems: &mut Vec<Problem>) -> V
 /// An image of the card; with the reason, where it was dropped.
 struct Image<'a> {
     file: &'a str,
+    orientation: Orientation,
     dropped: Option<FrameReason>,
 }
 
 type ImagesByStem<'a> = BTreeMap<String, Vec<Image<'a>>>;
 
 fn images_by_stem<'a>(session: &'a Session<'_>) -> ImagesByStem<'a> {
-    let used = session.frames.iter().map(|frame| Image { file: &frame.image.file, dropped: None });
-    let dropped = session.dropped.iter().map(|image| Image { file: &image.file, dropped: Some(image.reason) });
+    let used = session.frames.iter().map(|frame| Image {
+        file: &frame.image.file,
+        orientation: frame.image.orientation,
+        dropped: None,
+    });
+    let dropped = session.dropped.iter().map(|image| Image {
+        file: &image.file,
+        orientation: Orientation::Upright,
+        dropped: Some(image.reason),
+    });
     let mut images = ImagesByStem::new();
     for image in used.chain(dropped) {
         images.entry(stem_of(image.file)).or_default().push(image);
@@ -182,7 +194,7 @@ fn images_by_stem<'a>(session: &'a Session<'_>) -> ImagesByStem<'a> {
 }
 
 /// The one image of the card with this name; an error where there is none, several, or it was dropped.
-fn image_of<'a>(images: &ImagesByStem<'a>, stem: &str, place: &str) -> Result<&'a str, Problem> {
+fn image_of<'i, 'a>(images: &'i ImagesByStem<'a>, stem: &str, place: &str) -> Result<&'i Image<'a>, Problem> {
     let refuse = |code, fact, remedy| Err(problem(code, place.to_owned(), fact, remedy));
     match images.get(stem).map(Vec::as_slice) {
         None | Some([]) => refuse(
@@ -190,7 +202,7 @@ fn image_of<'a>(images: &ImagesByStem<'a>, stem: &str, place: &str) -> Result<&'
             format!("the card has no image named {stem}"),
             "give the file the image's name, or remove it",
         ),
-        Some([Image { file, dropped: None }]) => Ok(file),
+        Some([image @ Image { dropped: None, .. }]) => Ok(image),
         Some([Image { dropped: Some(reason), .. }]) => refuse(
             ProblemCode::MarkedImageDropped,
             format!("its image was dropped: {}", reason.meaning()),

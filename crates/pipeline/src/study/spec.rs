@@ -6,6 +6,7 @@ use model::{Kind, Method, Note, Quantity, Selection, TableLayout};
 use serde::{Deserialize, Serialize};
 
 use super::{MarksSource, UncertaintySpec};
+use crate::labelme::MarksFrame;
 use crate::signals::{GravityCalibrate, PoseSettings, RangeCone, ReadingSettings};
 use rims::{LEAST_DIAMETER_MM, RimShape};
 
@@ -66,6 +67,9 @@ fn utc() -> String {
 pub struct MarksSpec {
     /// The camera of the pictures that were marked, if those are not the raw ones.
     pub camera: Option<String>,
+    /// The frame of people's marks on pictures that EXIF tells viewers to turn, where it is not known from the files.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame: Option<MarksFrame>,
     /// The source of the marks: people, the program, or both.
     pub source: MarksSource,
     /// Found rims with less confidence are left out.
@@ -80,6 +84,7 @@ impl Default for MarksSpec {
     fn default() -> Self {
         Self {
             camera: None,
+            frame: None,
             source: MarksSource::default(),
             min_confidence: 0.5,
             min_diameter_mm: LEAST_DIAMETER_MM,

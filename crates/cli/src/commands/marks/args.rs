@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Subcommand, ValueEnum};
+use pipeline::labelme::MarksFrame;
 
 /// The arguments of `marks`.
 #[derive(Debug, clap::Args)]
@@ -48,6 +49,10 @@ pub struct MarksImportArgs {
     /// A label that is no mark, and is meant to be passed over; may be given again
     #[arg(long, value_name = "LABEL")]
     pub ignore: Vec<String>,
+    /// Frame of the marks on pictures that EXIF tells viewers to turn, where neither the tool nor the size shows it: stored or
+    /// shown; default: [marks] frame of study.toml
+    #[arg(long, value_name = "FRAME")]
+    pub frame: Option<MarksFrame>,
     /// Also take named points that are marked as hidden (COCO's visibility 1, occluded points of CVAT's skeletons)
     #[arg(long)]
     pub with_hidden: bool,

@@ -33,6 +33,7 @@ fn import(args: &MarksImportArgs) -> Result<Outcome, Failure> {
         session: args.session.clone(),
         renamed: args.label.iter().cloned().collect(),
         ignored: args.ignore.iter().cloned().collect(),
+        frame: args.frame,
         with_hidden: args.with_hidden,
         force: args.force,
         dry_run: args.dry_run,

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use model::{Kind, Shape, Wall};
+use pipeline::labelme::MarksFrame;
 use rims::RimShape;
 
 use crate::commands::view::PoseArgs;
@@ -25,6 +26,9 @@ pub struct MeasureArgs {
     /// Marks, as a LabelMe file (docs/study.md)
     #[arg(long, value_name = "FILE.json", required_unless_present = "auto", conflicts_with = "auto")]
     pub marks: Option<PathBuf>,
+    /// Frame of the marks on a picture that EXIF tells viewers to turn, where the file does not show it: stored or shown
+    #[arg(long, value_name = "FRAME", requires = "marks")]
+    pub frame: Option<MarksFrame>,
     /// Find rims without marks (docs/rims.md)
     #[arg(long)]
     pub auto: bool,

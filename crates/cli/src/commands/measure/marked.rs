@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use anyhow::anyhow;
+use ingest::orientation_of;
 use model::{Container, Kind, MeasureError, Method, Quantity, Shape, View, estimate};
-use pipeline::labelme;
+use pipeline::labelme::{self, MarkedPicture};
 use pipeline::study::UncertaintySpec;
 
 use super::super::{outcome, print, print_message};
@@ -21,7 +22,9 @@ const METHODS: [Method; 3] = [Method::Coaxial, Method::Ray, Method::Paper];
 /// where nothing could be measured.
 pub fn run(args: &MeasureArgs, view: &View, picture: &[u8], marks_file: &Path, kind: Kind) -> Result<Outcome, Failure> {
     let bytes = labelme::read_bytes(marks_file).map_err(Failure::usage)?;
-    let mut marks = labelme::parse(&bytes, marks_file, view.camera().size_px())?;
+    let (size_px, orientation) = (view.camera().size_px(), orientation_of(picture));
+    let marked = MarkedPicture { size_px, orientation, frame: args.frame, is_copy: false };
+    let mut marks = labelme::parse(&bytes, marks_file, marked)?;
     if marks.objects.is_empty() && marks.refused.is_empty() {
         return Err(Failure::Failed(anyhow!("the file of marks has no shapes: {}", marks_file.display())));
     }

@@ -7,15 +7,15 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ingest::nfc;
-use model::{Mark, ObjectMarks};
+use model::{Mark, ObjectMarks, Orientation};
 
 use super::ExchangeError;
 use super::foreign::Refused;
 use super::label::What;
 use super::pictures::Pictures;
-use crate::labelme;
+use crate::labelme::{self, MarkedPicture, MarksFrame};
 use crate::study::{Study, marks_in, stem_of};
-use crate::write_marks::write_whole;
+use crate::write_marks::{marked_on_card, write_whole};
 
 /// A format of another tool.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,6 +24,16 @@ pub enum Format {
     Coco,
     /// XML, 'CVAT for images 1.1': outlines as polygons, lines as polylines.
     Cvat,
+}
+
+impl Format {
+    /// The frame of the marks on a picture: CVAT shows it turned, and programs that read COCO do or do not.
+    fn frame(self, picture: &MarkedPicture) -> MarksFrame {
+        match self {
+            Self::Cvat if !picture.is_copy => MarksFrame::Shown,
+            Self::Coco | Self::Cvat => MarksFrame::Stored,
+        }
+    }
 }
 
 /// Settings of an export.
@@ -81,7 +91,7 @@ pub fn export(study: &Study, options: &ExportOptions) -> Result<Exported, Exchan
     let (mut exported, mut images) = (Exported::default(), Vec::new());
     for (number, session) in pictures.sessions.iter().enumerate() {
         if let Some(folder) = session.dir.marks.get(&nfc(&options.rater)) {
-            images.extend(images_of(study, &pictures, number, folder, &mut exported));
+            images.extend(images_of(study, &pictures, number, folder, options.format, &mut exported));
         }
     }
     if images.is_empty() && exported.refused.is_empty() {
@@ -105,6 +115,7 @@ fn images_of(
     pictures: &Pictures<'_>,
     session: usize,
     folder: &Path,
+    format: Format,
     exported: &mut Exported,
 ) -> Vec<MarkedImage> {
     let mut refuse = |path: &Path, fact: String| {
@@ -128,16 +139,30 @@ fn images_of(
     };
     let mut images = Vec::new();
     for path in files {
-        let size_px = prepared.marks_camera.1.size_px();
         let name = pictures.of_marks(session, &stem_of(&path.to_string_lossy()));
-        let marks = labelme::read_bytes(&path).and_then(|bytes| labelme::parse(&bytes, &path, size_px));
+        let picture = match (&name, pictures.sessions.get(session)) {
+            (Ok(picture), Some(marked)) => marked_on_card(study, marked.dir, prepared, &picture.file),
+            _ => Ok(prepared.marked_picture(study, Orientation::Upright)),
+        };
+        let picture = match picture {
+            Ok(picture) => picture,
+            Err((path, error)) => {
+                refuse(&path, format!("cannot read the picture: {error}"));
+                continue;
+            }
+        };
+        let frame = format.frame(&picture);
+        let marks = labelme::read_bytes(&path).and_then(|bytes| labelme::parse(&bytes, &path, picture));
         match (name, marks) {
-            (Ok(picture), Ok(mut marks)) => {
+            (Ok(named), Ok(mut marks)) => {
                 marks.refuse_four_corners(|object| study.is_round(object));
                 marks.refused.iter().for_each(|error| refuse(&path, error.to_string()));
-                let (marks, too_few) = labelled(marks.objects);
+                let (mut marks, too_few) = labelled(marks.objects);
+                for point_px in marks.iter_mut().flat_map(|mark| &mut mark.points_px) {
+                    *point_px = picture.from_stored(frame, *point_px);
+                }
                 too_few.into_iter().for_each(|fact| refuse(&path, fact));
-                images.push(MarkedImage { name: pictures.place(picture), size_px, marks });
+                images.push(MarkedImage { name: pictures.place(named), size_px: picture.size_in(frame), marks });
             }
             (Err(fact), _) => refuse(&path, fact),
             (_, Err(error)) => refuse(&path, error.to_string()),

@@ -31,6 +31,7 @@ fn changes() -> Vec<(&'static str, Value, From)> {
         ("/device_profile", json!("pupil-neon"), From::Ingest),
         ("/camera", json!("aim2-corrected"), From::Ingest), // its pictures have another size
         ("/marks/camera", json!("aim2-corrected"), From::Search),
+        ("/marks/frame", json!("shown"), From::Search),
         ("/marks/source", json!("auto"), From::Measure),
         ("/marks/min_confidence", json!(0.6), From::Search),
         ("/marks/min_diameter_mm", json!(120.0), From::Search),

@@ -10,8 +10,8 @@ use std::path::Path;
 
 use ingest::{ByteBudget, Picture, SessionReader};
 use model::{
-    Camera, Container, Estimate, FrameReason, Method, Problem, ProblemCode, Quantity, Severity, Shape, SizeSigma,
-    Stage, View,
+    Camera, Container, Estimate, FrameReason, Method, Orientation, Problem, ProblemCode, Quantity, Severity, Shape,
+    SizeSigma, Stage, View,
 };
 use nalgebra::Point2;
 
@@ -66,7 +66,7 @@ impl Search<'_> {
             return Ok(auto);
         }
         auto.searched = true;
-        let (checked, taken) = if source.reads() { self.checked() } else { Default::default() };
+        let (checked, taken) = if source.reads() { self.checked(recording) } else { Default::default() };
         let refuse = |error| SearchError::Recording(Box::new(bad_mcap(&self.dir.name, &error)));
         let mut reader = SessionReader::open(self.mcap).map_err(refuse)?;
         let mut seen = Vec::new();
@@ -91,13 +91,16 @@ impl Search<'_> {
     }
 
     /// The names of the images for which rater `auto` has files, and the numbers of the objects in those files.
-    fn checked(&self) -> (BTreeSet<String>, BTreeSet<u32>) {
+    fn checked(&self, recording: &Recording) -> (BTreeSet<String>, BTreeSet<u32>) {
         let files = self.dir.marks.get(AUTO).and_then(|dir| marks_in(dir).ok()).unwrap_or_default();
-        let picture_px = self.prepared.marks_camera.1.size_px();
+        let by_stem: BTreeMap<String, Orientation> =
+            recording.images.iter().map(|image| (stem_of(&image.file), image.orientation)).collect();
         let mut taken = BTreeSet::new();
         for file in &files {
+            let orientation = by_stem.get(&stem_of(&file.to_string_lossy())).copied().unwrap_or_default();
+            let picture = self.prepared.marked_picture(self.study, orientation);
             // A file that cannot be used becomes a problem where its marks are read.
-            let marks = labelme::read_bytes(file).and_then(|bytes| labelme::parse(&bytes, file, picture_px));
+            let marks = labelme::read_bytes(file).and_then(|bytes| labelme::parse(&bytes, file, picture));
             let objects = marks.map(|marks| marks.objects).unwrap_or_default();
             taken.extend(objects.iter().filter_map(|marks| number_of_found(&marks.object)));
         }
