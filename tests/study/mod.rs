@@ -14,4 +14,5 @@ mod misplaced;
 mod names;
 mod published_bench;
 mod squares;
+mod turned;
 mod unicode;

@@ -60,6 +60,7 @@ coded_enum! {
         NoTime = "no_time": "neither the name of a file nor its EXIF data give its time as the profile declares it",
         TimesDisagree = "times_disagree": "name and EXIF data of a file give different times",
         BytesAfterImage = "bytes_after_image": "bytes stand behind the end marker of a picture; the picture is used",
+        StrayBytesInImage = "stray_bytes_in_image": "bytes that belong to nothing stand before a marker of a JPEG picture; the picture is used",
         WrongExtension = "wrong_extension": "the extension of a file is that of another encoding; the first bytes count",
         TimeFromOneSource = "time_from_one_source": "only the name or only the EXIF data give the time of an image, so nothing checks it",
         TurnedImages = "turned_images": "EXIF tells viewers to turn or mirror images; they are measured as they are stored",
@@ -171,6 +172,7 @@ impl ProblemCode {
             Self::BytesAfterImage => {
                 "look at the picture: a device may write its own data there, a damaged card garbage"
             }
+            Self::StrayBytesInImage => "look at the picture: a camera may write so, a damaged card as well",
             Self::WrongExtension => "rename the file if another program must read it",
             Self::TimeFromOneSource => {
                 "declare images.time from the one that all images have, if that is how the device writes them"

@@ -31,6 +31,8 @@ pub(crate) struct TakenImage {
 pub(crate) struct Remarks {
     /// Bytes behind the picture's end marker that belong to no picture.
     pub bytes_after: u64,
+    /// Stray bytes between the segments of the picture, which decoders pass over.
+    pub stray_bytes: u64,
     /// The extension is that of another encoding.
     pub has_wrong_extension: bool,
     /// Name and EXIF should both give the time, and only one does.
@@ -109,7 +111,12 @@ pub(crate) fn judge_image(
     let entry =
         ImageEntry { file: file.name.clone(), time, bytes: bytes.len() as u64, width_px, height_px, orientation };
     let has_wrong_extension = has_wrong_extension(&file.name, encoding);
-    let remarks = Remarks { bytes_after: bytes_after(extent, &bytes), has_wrong_extension, has_one_time };
+    let remarks = Remarks {
+        bytes_after: bytes_after(extent, &bytes),
+        stray_bytes: extent.stray_bytes as u64,
+        has_wrong_extension,
+        has_one_time,
+    };
     Ok(TakenImage { entry, encoding, bytes, remarks })
 }
 

@@ -9,6 +9,7 @@ use crate::summary::ImageEntry;
 #[derive(Debug, Default)]
 pub(super) struct ImageTally {
     bytes_after: Tally,
+    stray_bytes: Tally,
     wrong_extension: Tally,
     one_time: Tally,
     turned: Tally,
@@ -42,6 +43,9 @@ impl ImageTally {
         if remarks.bytes_after > 0 {
             self.bytes_after.add(file, remarks.bytes_after);
         }
+        if remarks.stray_bytes > 0 {
+            self.stray_bytes.add(file, remarks.stray_bytes);
+        }
         if remarks.has_wrong_extension {
             self.wrong_extension.add(file, bytes);
         }
@@ -52,7 +56,7 @@ impl ImageTally {
 
     /// The notes, each at the first image that it is about.
     pub fn notes(&self, place: &Place) -> Vec<Problem> {
-        let Self { bytes_after, wrong_extension, one_time, turned } = self;
+        let Self { bytes_after, stray_bytes, wrong_extension, one_time, turned } = self;
         let after = format!(
             "{} behind the end marker of {} image{}, which are used; the bytes are kept as they are",
             size(bytes_after.bytes),
@@ -60,6 +64,13 @@ impl ImageTally {
             if bytes_after.images == 1 { "" } else { "s" }
         );
         let after_remedy = "look at the picture: a device may write its own data there, a damaged card garbage";
+        let stray = format!(
+            "{} before markers of {} JPEG image{}, which are used; decoders pass over them",
+            size(stray_bytes.bytes),
+            stray_bytes.images,
+            if stray_bytes.images == 1 { "" } else { "s" }
+        );
+        let stray_remedy = "look at the picture: a camera may write so, a damaged card as well";
         let extension = format!(
             "the extension is that of another encoding: {}, read as what the first bytes say",
             amount(wrong_extension.images, "image", wrong_extension.bytes)
@@ -77,6 +88,7 @@ impl ImageTally {
         [
             (ProblemCode::TurnedImages, turned, turn, turn_remedy),
             (ProblemCode::BytesAfterImage, bytes_after, after, after_remedy),
+            (ProblemCode::StrayBytesInImage, stray_bytes, stray, stray_remedy),
             (ProblemCode::WrongExtension, wrong_extension, extension, "rename them if another program must read them"),
             (ProblemCode::TimeFromOneSource, one_time, one, one_remedy),
         ]

@@ -11,6 +11,8 @@ pub struct ImageExtent {
     pub bytes: usize,
     /// The picture announces others behind it (multi-picture format), so bytes behind it are no garbage.
     pub has_more_pictures: bool,
+    /// Stray bytes before markers of the picture, which decoders pass over.
+    pub stray_bytes: usize,
 }
 
 /// Why a picture is not whole. Offsets count bytes from the start of the file.

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use model::Orientation;
 
+use super::jpeg_segments::JpegSegments;
 use crate::card::LARGEST_IMAGE_BYTES;
 
 const ORIENTATION: u16 = 0x0112;
@@ -66,26 +67,11 @@ fn find(picture: &[u8]) -> Option<Found> {
 
 /// The TIFF structure in the first EXIF segment of a JPEG file.
 fn jpeg_exif(picture: &[u8]) -> Option<Range<usize>> {
+    const APP1: u8 = 0xe1;
     const NAME: &[u8] = b"Exif\0\0";
-    let mut at = 2;
-    loop {
-        // Stray bytes before a marker are passed over, and any number of 0xff may stand before its code.
-        at += memchr::memchr(0xff, picture.get(at..)?)?;
-        at += picture.get(at..)?.iter().take_while(|byte| **byte == 0xff).count();
-        let code = *picture.get(at)?;
-        at += 1;
-        match code {
-            0x00 | 0x01 | 0xd0..=0xd8 => continue,
-            0xd9 | 0xda => return None,
-            _ => {}
-        }
-        let length = usize::from(u16::from_be_bytes([*picture.get(at)?, *picture.get(at + 1)?]));
-        let content = at + 2..at + length.max(2);
-        if code == 0xe1 && picture.get(content.clone()).is_some_and(|content| content.starts_with(NAME)) {
-            return Some(content.start + NAME.len()..content.end);
-        }
-        at = content.end;
-    }
+    let mut contents = JpegSegments::new(picture).filter(|(code, _)| *code == APP1).map(|(_, content)| content);
+    let content = contents.find(|content| picture.get(content.clone()).is_some_and(|bytes| bytes.starts_with(NAME)))?;
+    Some(content.start + NAME.len()..content.end)
 }
 
 /// Type and data of the `eXIf` chunk of a PNG file.

@@ -13,6 +13,12 @@ pub(super) const ZERO_BLOCK_BYTES: usize = 4096;
 const END_MARKER: &str = "ff d9";
 const SEGMENT: &str = "a marker of JPEG (ff c0 to ff fe)";
 
+/// A damaged card loses or changes whole sectors.
+const SECTOR_BYTES: usize = 512;
+
+const TEM: u8 = 0x01;
+const RST0: u8 = 0xd0;
+const RST7: u8 = 0xd7;
 const SOI: u8 = 0xd8;
 const EOI: u8 = 0xd9;
 const SOS: u8 = 0xda;
@@ -27,12 +33,14 @@ pub(super) fn jpeg_extent(bytes: &[u8]) -> Result<ImageExtent, ImageDamage> {
     if !bytes.starts_with(&[0xff, SOI]) {
         return Err(strange(bytes, 0, "the start marker ff d8"));
     }
-    let mut walk = Walk { bytes, at: 2, tables: ZeroCodes::default(), has_scan: false, has_more_pictures: false };
+    let mut walk =
+        Walk { bytes, at: 2, tables: ZeroCodes::default(), has_scan: false, has_more_pictures: false, stray_bytes: 0 };
     loop {
         let (at, code) = walk.marker()?;
         match code {
             EOI if walk.has_scan => {
-                return Ok(ImageExtent { bytes: walk.at, has_more_pictures: walk.has_more_pictures });
+                let Walk { at: bytes, has_more_pictures, stray_bytes, .. } = walk;
+                return Ok(ImageExtent { bytes, has_more_pictures, stray_bytes });
             }
             EOI => return Err(ImageDamage::NoPixels { at }),
             SOS => {
@@ -71,21 +79,30 @@ struct Walk<'a> {
     tables: ZeroCodes,
     has_scan: bool,
     has_more_pictures: bool,
+    stray_bytes: usize,
 }
 
 impl<'a> Walk<'a> {
-    /// The place where the next marker is, and its code. Any number of 0xff may stand before the code.
+    /// The place where the next marker is, and its code. Any number of 0xff may stand before the code. Stray bytes before the marker
+    /// are passed over and counted, as libjpeg does ("extraneous bytes before marker"), as long as they are fewer than a damaged card
+    /// would give.
     fn marker(&mut self) -> Result<(usize, u8), ImageDamage> {
-        let at = self.at;
-        match self.bytes.get(at) {
-            None => return Err(self.no_end()),
-            Some(0xff) => {}
-            Some(_) => return Err(strange(self.bytes, at, SEGMENT)),
+        let start = self.at;
+        loop {
+            let stray = memchr(0xff, &self.bytes[self.at..]).ok_or_else(|| self.no_end())?;
+            let at = self.at + stray;
+            let fill = self.bytes[at..].iter().take_while(|byte| **byte == 0xff).count();
+            let code = *self.bytes.get(at + fill).ok_or_else(|| self.no_end())?;
+            self.at = at + fill + 1;
+            let is_stray = matches!(code, 0x00 | TEM | RST0..=RST7);
+            self.stray_bytes += stray + if is_stray { fill + 1 } else { 0 };
+            if self.stray_bytes >= SECTOR_BYTES {
+                return Err(strange(self.bytes, start, SEGMENT));
+            }
+            if !is_stray {
+                return Ok((at, code));
+            }
         }
-        let fill = self.bytes[at..].iter().take_while(|byte| **byte == 0xff).count();
-        let code = *self.bytes.get(at + fill).ok_or_else(|| self.no_end())?;
-        self.at = at + fill + 1;
-        Ok((at, code))
     }
 
     /// Reads the segment whose marker is at `marker_at`, and goes on behind it.

@@ -14,6 +14,7 @@ pub mod image_header;
 pub mod image_orientation;
 pub mod image_time;
 mod jpeg_extent;
+mod jpeg_segments;
 mod jpeg_tables;
 mod packet_file;
 mod packets;

@@ -18,7 +18,7 @@ pub(super) fn png_extent(bytes: &[u8]) -> Result<ImageExtent, ImageDamage> {
         has_pixels |= chunk.name == *b"IDAT";
         let end = at + FRAME_BYTES + chunk.data_bytes;
         if chunk.name == *b"IEND" {
-            let whole = ImageExtent { bytes: end, has_more_pictures: false };
+            let whole = ImageExtent { bytes: end, has_more_pictures: false, stray_bytes: 0 };
             return if has_pixels { Ok(whole) } else { Err(ImageDamage::NoPixels { at }) };
         }
         at = end;

@@ -1,5 +1,6 @@
 //! The walk through a picture's structure: where it ends, and what breaks it.
 
+use aim_batch_ingest::Picture;
 use aim_batch_ingest::parse::image_extent::{ImageDamage, ImageExtent, extent};
 use aim_batch_ingest::parse::image_header::{self, Encoding};
 use proptest::prelude::*;
@@ -11,7 +12,7 @@ fn of_jpeg(bytes: &[u8]) -> Result<ImageExtent, ImageDamage> {
 }
 
 fn whole(bytes: &[u8]) -> Result<ImageExtent, ImageDamage> {
-    Ok(ImageExtent { bytes: bytes.len(), has_more_pictures: false })
+    Ok(ImageExtent { bytes: bytes.len(), has_more_pictures: false, stray_bytes: 0 })
 }
 
 /// A segment with its marker and length.
@@ -78,7 +79,7 @@ fn a_second_picture_behind_the_first_is_announced() {
     let picture = noisy_jpeg(64, 48);
     let first = [&picture[..2], &segment(0xe2, b"MPF\0II*\0"), &picture[2..]].concat();
     let both = [&first[..], &picture].concat();
-    assert_eq!(of_jpeg(&both), Ok(ImageExtent { bytes: first.len(), has_more_pictures: true }));
+    assert_eq!(of_jpeg(&both), Ok(ImageExtent { bytes: first.len(), has_more_pictures: true, stray_bytes: 0 }));
 }
 
 #[test]
@@ -197,4 +198,46 @@ fn real_photographs_are_whole() {
         count += 1;
     }
     println!("{count} photographs are whole");
+}
+
+#[test]
+fn stray_bytes_before_a_marker_are_passed_over_and_counted() {
+    let picture = jpeg(32, 24, 9);
+    let tables = picture.windows(2).position(|pair| pair == [0xff, 0xdb]).unwrap();
+    let ends = picture.len() - 2;
+    for (at, stray, count) in [
+        (tables, &b"\0"[..], 1),
+        (tables, b"\x12\x34\xff\0\x56", 5),
+        (tables, b"\xff\xd0", 2),
+        (tables, b"\xff\xff\xff", 0), // fill bytes
+        (2, &[0; 511], 511),
+        (ends, b"\xff\xd7", 0), // a restart marker at the end of the scan
+    ] {
+        let odd = [&picture[..at], stray, &picture[at..]].concat();
+        let expected = ImageExtent { bytes: odd.len(), has_more_pictures: false, stray_bytes: count };
+        assert_eq!(of_jpeg(&odd), Ok(expected), "{stray:?} at {at}");
+        let header = image_header::read(&odd).unwrap();
+        assert_eq!((header.width_px, header.height_px), (32, 24), "{stray:?} at {at}");
+        assert_eq!(Picture::decode(&odd).unwrap(), Picture::decode(&picture).unwrap(), "{stray:?} at {at}");
+    }
+    let damaged = [&picture[..tables], &[0; 512], &picture[tables..]].concat();
+    assert!(matches!(of_jpeg(&damaged), Err(ImageDamage::Strange { at, .. }) if at == tables));
+}
+
+#[test]
+fn codings_that_cannot_be_decoded_are_unsupported_and_not_damaged() {
+    let picture = jpeg(32, 24, 9);
+    let frame = picture.windows(2).position(|pair| pair == [0xff, 0xc0]).unwrap();
+    for (place, byte, expected) in [
+        (frame + 1, 0xc9, "arithmetic-coded JPEG (marker ff c9) is not supported"),
+        (frame + 1, 0xca, "arithmetic-coded JPEG (marker ff ca) is not supported"),
+        (frame + 1, 0xc3, "lossless JPEG (marker ff c3) is not supported"),
+        (frame + 4, 12, "JPEG with other than 8 bits per sample (marker ff c0) is not supported"),
+    ] {
+        let mut other = picture.clone();
+        other[place] = byte;
+        let message = image_header::read(&other).unwrap_err().to_string();
+        assert!(message.starts_with(expected), "{message}");
+        assert!(!message.contains("damaged"), "{message}");
+    }
 }
