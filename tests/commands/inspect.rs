@@ -234,3 +234,24 @@ fn a_real_range_sensor() {
     assert_eq!((range["least_mm"].as_f64(), range["greatest_mm"].as_f64()), (Some(65.0), Some(84.0)));
     assert!(range["repeated_samples"].as_u64().unwrap() > 10_000, "{range}");
 }
+
+/// The range is the median of the readings that are ranges, whatever a driver writes for those that are none.
+#[test]
+fn readings_without_a_target_are_no_loss() {
+    for none in ["None", "65535", "-1", "8191", "inf"] {
+        let study = StudyFolder::new("", OBJECTS, &small_camera());
+        study.session("s", &[shot(55.0, 512.0)]);
+        let path = study.path().join("cards/s/range.csv");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let other = |(i, line): (usize, &str)| match i % 3 {
+            1 => format!("{},{none}\n", line.split(',').next().unwrap()),
+            _ => format!("{line}\n"),
+        };
+        std::fs::write(&path, text.lines().enumerate().map(other).collect::<String>()).unwrap();
+        let out = study.path().join("out/r.parquet");
+        let output = run(["run", study.path().to_str().unwrap(), "--out", out.to_str().unwrap()]);
+        assert_exit(&output, 0);
+        let frames = report::read_frames(&out.with_file_name("frames.parquet")).unwrap();
+        assert_eq!(frames[0].range_mm, Some(512.0), "{none}");
+    }
+}

@@ -144,3 +144,20 @@ fn files_that_are_no_configuration_are_refused() {
     std::fs::write(&path, vec![b'#'; 5_000_000]).unwrap();
     assert!(matches!(read(), ConfigError::TooLarge { .. }));
 }
+
+#[test]
+fn words_for_no_target_are_for_csv_files() {
+    let with = |name: &str, list: &str| {
+        let text = built_in(name).replace("mm_per_count = 1.0\n", &format!("mm_per_count = 1.0\nno_target = {list}\n"));
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("p.toml");
+        std::fs::write(&path, text).unwrap();
+        Profile::read_file(&path).map_err(|error| error.to_string())
+    };
+    assert!(with("csv", "[0, 8190.5, \"OOR\"]").is_ok());
+    assert!(with("aim2-packets", "[0, -1]").is_ok());
+    let message = with("aim2-packets", "[\"OOR\"]").unwrap_err();
+    assert!(message.contains("range.no_target") && message.contains("cannot hold the word 'OOR'"), "{message}");
+    let message = with("csv", "[nan]").unwrap_err();
+    assert!(message.contains("not a finite number"), "{message}");
+}
