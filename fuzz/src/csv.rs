@@ -34,7 +34,7 @@ pub fn csv(input: &[u8]) -> usize {
         flag(0),
         flag(1),
         time,
-        CsvFormat { delimiter, skip_lines, header: flag(0), decimal_comma: delimiter == ';' },
+        CsvFormat { delimiter, skip_lines, header: flag(0), decimal_comma: delimiter == ';', ..CsvFormat::default() },
     );
     let rate_hz = 1.0 + f64::from(rate_code);
     let mut clocked = Clocked::new(Setting {

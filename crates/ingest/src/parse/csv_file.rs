@@ -180,8 +180,9 @@ impl<R: Read> CsvSamples<R> {
         }
         let header = &self.rows;
         columns(layout, |name: &String| {
-            let is_it = |column: &[u8]| column.trim_ascii() == name.as_bytes();
-            header.fields().position(is_it).ok_or_else(|| Fault::MissingColumn {
+            let position = |name: &String| header.fields().position(|column| column.trim_ascii() == name.as_bytes());
+            let others = || layout.format.other_names.get(name).into_iter().flatten().find_map(position);
+            position(name).or_else(others).ok_or_else(|| Fault::MissingColumn {
                 column: name.clone(),
                 found: header.fields().take(SHOWN_COLUMNS).map(shown).collect::<Vec<_>>().join(", "),
             })

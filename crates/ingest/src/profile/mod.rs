@@ -33,6 +33,7 @@ const SHELF: Shelf = Shelf {
         ("csv", include_str!("../../profiles/csv.toml")),
         ("axivity-cwa", include_str!("../../profiles/axivity-cwa.toml")),
         ("pupil-neon", include_str!("../../profiles/pupil-neon.toml")),
+        ("pupil-invisible", include_str!("../../profiles/pupil-invisible.toml")),
     ],
     marks: &["acceleration", "range", "images"],
 };

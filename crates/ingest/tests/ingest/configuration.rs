@@ -19,7 +19,7 @@ fn built_in(name: &str) -> String {
 
 #[test]
 fn every_built_in_profile_and_camera_loads() {
-    for name in ["aim2-packets", "csv"] {
+    for name in ["aim2-packets", "csv", "axivity-cwa", "pupil-neon", "pupil-invisible"] {
         let profile = Profile::load(name, Path::new("no-such-folder")).unwrap();
         assert_eq!(profile.name, name);
         let text = toml::to_string(&profile).unwrap();
@@ -111,7 +111,7 @@ fn an_unknown_name_lists_what_exists() {
     assert!(message.contains("unknown camera 'aim2-rwa' (did you mean 'aim2-raw'?)"), "{message}");
     assert!(message.contains("known are aim2-corrected, aim2-raw, unit-7;"), "{message}");
     let message = Profile::load("../csv", devices.path()).unwrap_err().to_string();
-    assert!(message.contains("known are aim2-packets, axivity-cwa, csv, own-profile, pupil-neon;"), "{message}");
+    assert!(message.contains("known are aim2-packets, axivity-cwa, csv, own-profile, pupil-invisible, pupil-neon;"), "{message}");
 }
 
 #[test]
