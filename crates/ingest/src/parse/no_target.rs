@@ -63,6 +63,7 @@ fn is_same(code: f64, value: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "codes are exact")]
     use super::*;
 
     fn word(text: &str) -> NoTarget {

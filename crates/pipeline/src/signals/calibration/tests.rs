@@ -174,7 +174,7 @@ fn with_stuck_windows(rail_g: f64, noise_g: f64) -> GravityCalibration {
     for force in &forces {
         for i in 0..11 * RATE_HZ {
             let mut value = force + Vector3::from_fn(|_, _| noise_g * noise.next());
-            if force.x == rail_g {
+            if (force.x - rail_g).abs() < 1e-12 {
                 value.x = rail_g;
             }
             windows.push(UtcNs(0).plus_seconds(time_s + f64::from(i) / f64::from(RATE_HZ)), &value);
