@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use model::{FrameReason, ObjectMarks, Problem, ProblemCode, Severity, Stage};
 
+use super::beside::marks_beside_pictures;
 use super::frames::Session;
 use super::naming::Naming;
 use super::problems::LINK_FACT;
@@ -60,6 +61,7 @@ impl SessionMarks {
         inputs_sha256: &mut BTreeMap<String, String>,
     ) {
         let images = images_by_stem(session);
+        problems.extend(marks_beside_pictures(session, |stem| images.contains_key(stem)));
         for (rater, dir) in &session.dir.marks {
             for path in files_of(session, dir, problems) {
                 let place = session.study.relative(&path);
@@ -91,7 +93,8 @@ impl SessionMarks {
         };
         let bytes = labelme::read_bytes(path).map_err(refuse)?;
         inputs_sha256.insert(place.clone(), sha256_of_bytes(&bytes));
-        let marks = labelme::parse(&bytes, path, session.marks_camera.size_px()).map_err(refuse)?;
+        let mut marks = labelme::parse(&bytes, path, session.marks_camera.size_px()).map_err(refuse)?;
+        marks.refuse_four_corners(|object| session.study.is_round(object));
         problems.extend(marks.refused.into_iter().map(refuse));
         let image = image_of(images, &stem_of(&path.to_string_lossy()), &place)?;
         let with_found = |of: ObjectMarks| {

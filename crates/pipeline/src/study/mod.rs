@@ -3,6 +3,7 @@
 mod csv_file;
 mod error;
 mod marks_source;
+mod misplaced;
 mod names;
 mod objects;
 mod printed;
@@ -14,11 +15,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ingest::Profile;
-use model::{Camera, CameraSpec, TableSpec};
+use model::{Camera, CameraSpec, Shape, TableSpec};
 
 use crate::calibration::CalibrationFile;
 pub use error::StudyError;
 pub use marks_source::{MarksSource, UnknownMarksSource};
+pub(crate) use misplaced::{misplaced, move_command};
 pub(crate) use names::{AUTO, FOUND, NAMES_FILE, number_of_found};
 pub use names::{Named, Names};
 pub use objects::Object;
@@ -72,7 +74,7 @@ impl Study {
         let time_zone = jiff::tz::TimeZone::get(&spec.time_zone)
             .map_err(|source| StudyError::TimeZone { name: spec.time_zone.clone(), source })?;
         let objects = objects::read_objects(&dir.join("objects.csv"))?;
-        let sessions = sessions::find(dir)?;
+        let sessions = sessions::find(dir, spec.marks.source.reads())?;
         let study = Self {
             names: names::read_names(&dir.join(NAMES_FILE), &objects, &sessions)?,
             objects,
@@ -110,6 +112,11 @@ impl Study {
             Some(name) => load_camera(name, &self.dir.join("devices")),
             None => Ok((self.camera_spec.clone(), camera_of(&self.spec.camera, &self.camera_spec)?)),
         }
+    }
+
+    /// Whether objects.csv has this object as a round one.
+    pub(crate) fn is_round(&self, object: &str) -> bool {
+        self.objects.get(object).is_some_and(|object| object.container.shape == Shape::Circle)
     }
 
     /// Whether `path` lies in the study, links followed.

@@ -6,9 +6,11 @@ use std::path::{Path, PathBuf};
 use ingest::card::{exact_name_text, name_text};
 use ingest::{nfc, spelled_out};
 use model::{Problem, ProblemCode, Severity, Stage};
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::StudyError;
+use super::misplaced::{self, is_wrong_way_round};
 
 /// session.toml: the settings of one session. Unknown keys are refused.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -25,7 +27,24 @@ pub struct SessionSpec {
     /// The camera of the session's marked pictures, if those are not the raw ones.
     pub marks_camera: Option<String>,
     /// The time at which a clock that counts from the device's start was zero.
+    #[serde(deserialize_with = "time_of_toml")]
     pub clock_zero_utc: Option<jiff::Timestamp>,
+}
+
+/// A time as text, or as TOML's own date-time. It must have its offset, as in `2025-06-01T12:00:00Z`.
+fn time_of_toml<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<jiff::Timestamp>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged, expecting = "expected a time with its offset, such as 2025-06-01T12:00:00Z")]
+    enum Written {
+        Text(String),
+        Toml(toml::value::Datetime),
+    }
+    let text = match Written::deserialize(deserializer)? {
+        Written::Text(text) => text,
+        Written::Toml(time) => time.to_string(),
+    };
+    let wrong = |error| format!("'{text}' is no time with its offset, such as 2025-06-01T12:00:00Z: {error}");
+    text.parse().map(Some).map_err(|error: jiff::Error| D::Error::custom(wrong(error)))
 }
 
 /// The folders of one session.
@@ -74,8 +93,9 @@ pub(crate) fn stem_of(file: &str) -> String {
     Path::new(file).file_stem().map(|stem| nfc(stem.to_string_lossy())).unwrap_or_default()
 }
 
-/// The sessions of a study, in the order of their names.
-pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
+/// The sessions of a study, in the order of their names. `reads_marks` says whether files of marks are read, so that those in a wrong
+/// place are told.
+pub(super) fn find(study_dir: &Path, reads_marks: bool) -> Result<Vec<SessionDir>, StudyError> {
     let mut sessions: BTreeMap<String, SessionDir> = BTreeMap::new();
     let cards_dir = study_dir.join("cards");
     let cards = folders(&cards_dir)?;
@@ -95,14 +115,27 @@ pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
     if marks_dir.is_dir() {
         for rater in folders(&marks_dir)? {
             for marks in folders(&rater.path)? {
+                if is_wrong_way_round(&rater.name, &marks.name, |name| is_card(&sessions, name)) {
+                    continue; // it is told below
+                }
                 // Of sessions that look alike each has its exact name.
                 let name = if sessions.contains_key(&marks.exact) { &marks.exact } else { &marks.name };
+                if !sessions.contains_key(name) && marks_in(&marks.path).is_ok_and(|files| files.is_empty()) {
+                    continue; // neither a card nor marks
+                }
                 let session = sessions.entry(name.clone()).or_insert_with(|| SessionDir::new(name));
                 add_marks(session, &rater.name, marks.path, study_dir);
             }
         }
     }
+    if reads_marks {
+        misplaced::report(study_dir, &mut sessions);
+    }
     if sessions.is_empty() { Err(StudyError::NoSessions(cards_dir)) } else { Ok(sessions.into_values().collect()) }
+}
+
+fn is_card(sessions: &BTreeMap<String, SessionDir>, name: &str) -> bool {
+    sessions.get(name).is_some_and(|session| session.card.is_some())
 }
 
 /// Adds the folder of a rater's marks. Where the rater has one already, whose name is another form of the same, the first counts.
@@ -150,4 +183,49 @@ fn folders(dir: &Path) -> Result<Vec<Folder>, StudyError> {
     }
     folders.sort_by(|a, b| (&a.name, &a.exact).cmp(&(&b.name, &b.exact)));
     Ok(folders)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn clock_zero(value: &str) -> Result<Option<String>, String> {
+        let text = format!("clock_zero_utc = {value}\n");
+        let spec = ingest::config::parse_toml::<SessionSpec>(&text, Path::new("session.toml"));
+        spec.map(|spec| spec.clock_zero_utc.map(|time| time.to_string())).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn the_clock_s_zero_is_text_or_toml_s_own_date_time() {
+        let three = Ok(Some("2021-03-01T15:00:00Z".to_owned()));
+        for value in [
+            "\"2021-03-01T15:00:00Z\"",
+            "2021-03-01T15:00:00Z",
+            "2021-03-01 15:00:00Z",
+            "2021-03-01T09:00:00-06:00",
+            "2021-03-01T15:00:00.000z",
+        ] {
+            assert_eq!(clock_zero(value), three, "{value}");
+        }
+        let fraction = clock_zero("2021-03-01T15:00:00.250+00:00");
+        assert_eq!(fraction, Ok(Some("2021-03-01T15:00:00.25Z".to_owned())));
+    }
+
+    #[test]
+    fn a_time_without_its_offset_or_without_its_day_is_refused() {
+        for value in ["2021-03-01T15:00:00", "2021-03-01", "15:00:00", "1614610800", "\"yesterday\""] {
+            let error = clock_zero(value).unwrap_err();
+            assert!(
+                error.contains("time with its offset") && error.contains("2025-06-01T12:00:00Z"),
+                "{value}: {error}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_date_where_text_is_expected_says_that_quotes_are_missing() {
+        let spec = ingest::config::parse_toml::<SessionSpec>("participant = 2021-03-01\n", Path::new("session.toml"));
+        let error = spec.unwrap_err().to_string();
+        assert!(error.contains("in quotes"), "{error}");
+    }
 }
