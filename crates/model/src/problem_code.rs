@@ -40,11 +40,8 @@ coded_enum! {
         LongLine = "long_line": "a line is too long for a table of numbers, such as a block of zeros; the rest of the file is not used",
         SamplesWithoutTime = "samples_without_time": "samples have no time that can be told; they are lost",
         NoSamples = "no_samples": "the file holds no sample",
-<<<<<<< HEAD
-        ImpossibleAcceleration = "impossible_acceleration": "samples are accelerations that the sensor cannot give; they are left out, and what is around them is used",
-=======
         TextEncoding = "text_encoding": "a log is UTF-16 text, and is not read",
->>>>>>> main
+        ImpossibleAcceleration = "impossible_acceleration": "samples are accelerations that the sensor cannot give; they are left out, and what is around them is used",
         Gaps = "gaps": "there are holes between packets; nothing is bridged",
         DuplicatePackets = "duplicate_packets": "packets are there twice, and are used once",
         PacketsOutOfOrder = "packets_out_of_order": "packets stand in another order than their times; they are put in order",
@@ -148,13 +145,10 @@ impl ProblemCode {
             Self::LongLine => "check that the file is text with line ends",
             Self::SamplesWithoutTime => "correct the time that the profile declares",
             Self::NoSamples => "nothing, if the device recorded nothing; else copy the file again",
-<<<<<<< HEAD
+            Self::TextEncoding => "save the file as UTF-8",
             Self::ImpossibleAcceleration => {
                 "none needed if the logger writes them for 'no value'; else correct g_per_count or full_scale_g in the profile"
             }
-=======
-            Self::TextEncoding => "save the file as UTF-8",
->>>>>>> main
             Self::Gaps => "none needed: images in a gap have no pose",
             Self::DuplicatePackets => "none needed",
             Self::PacketsOutOfOrder => "none needed",
