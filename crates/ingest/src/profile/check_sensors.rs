@@ -1,13 +1,8 @@
 //! Whether what a profile says of its sensors makes sense.
 
 use super::check::{Wrong, check_files, check_positive, wrong};
-<<<<<<< HEAD
 use super::{Anchor, Axis, CsvFormat, Epoch, NoTarget, PacketLayout, Profile, RangeStream, RowTime, Scalar};
-use crate::parse::image_time;
-=======
-use super::{Anchor, Axis, CsvFormat, Epoch, PacketLayout, Profile, RowTime, Scalar};
 use crate::parse::{image_time, written_time};
->>>>>>> main
 
 /// A packet is read whole; this keeps a mistyped `samples` from asking for all memory.
 const LARGEST_PACKET_BYTES: usize = 16 * 1024 * 1024;

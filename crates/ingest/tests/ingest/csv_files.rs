@@ -115,7 +115,6 @@ fn times_as_text() {
     assert_eq!(samples, [range(1_748_779_200_000_000_000, 10.0)]);
 }
 
-<<<<<<< HEAD
 /// Adafruit's library in Python writes `None`, its 819.0 cm are the sensor's 8190, Pololu's 65535 and -1 are failures.
 #[test]
 fn what_a_driver_writes_for_no_target_is_one_code_and_no_loss() {
@@ -146,7 +145,7 @@ fn accelerations_that_no_sensor_has_are_left_out_and_told_with_their_line() {
     assert_eq!(samples, [(1_000_000_000, vec![0.0, -1.0, 0.0]), (5_000_000_000, vec![0.0, 0.0, -2.1])]);
     let first = "in line 3: [0.0, -9999.0, 0.0]".to_owned();
     assert_eq!(faults, [Fault::ImpossibleAcceleration { samples: 3, of: 5, first }]);
-=======
+
 /// Samples one second apart.
 const TWO_ROWS: &[u8] = b"t,range\n1,2\n2,3\n";
 
@@ -192,5 +191,4 @@ fn a_column_s_seconds_since_1970_keep_their_fraction_and_zones_by_name_count() {
     let zone = b"t,range\n2025-06-01 14:00:00.5 Europe/Berlin,1\n";
     let (samples, faults) = read_with(zone, layout(text("%Y-%m-%d %H:%M:%S%.f %Q"), ','));
     assert_eq!((samples, faults), (vec![range(1_748_779_200_500_000_000, 10.0)], vec![]));
->>>>>>> main
 }
