@@ -254,7 +254,7 @@ fn split_off(block: &mut RawBlock, row: usize) -> RawBlock {
         columns.iter_mut().map(|column| column.split_off(row.min(column.len()))).collect()
     };
     let (channels, extra) = (cut(&mut block.channels), cut(&mut block.extra));
-    RawBlock { stamps, channels, extra, missing: 0, ..*block }
+    RawBlock { stamps, channels, extra, missing: 0, impossible: None, ..*block }
 }
 
 /// Replaces the stamps of rows; rows without a time are left out.
@@ -275,7 +275,7 @@ mod tests {
     fn block(stamps: &[i64]) -> RawBlock {
         let values = (0..stamps.len()).map(|i| i as f32).collect();
         let stamps = Stamps::Each(stamps.iter().map(|ms| ms * MS).collect());
-        RawBlock { stamps, sequence: None, channels: vec![values], extra: vec![], missing: 0, declared_rate_hz: None }
+        RawBlock { stamps, sequence: None, channels: vec![values], extra: vec![], missing: 0, impossible: None, declared_rate_hz: None }
     }
 
     /// Times in ms of all rows, and how many were left out; stamps in ms, given in blocks of `size` rows.
