@@ -93,7 +93,8 @@ fn layout(header: bool, is_range: bool, time: RowTime, format: CsvFormat) -> Csv
         (named(&["range"], &["#2"]), Converter::Range { mm_per_count: 1.0, no_target: NoTargetReadings::default() })
     } else {
         let axes = [Axis::PlusX, Axis::MinusZ, Axis::PlusY];
-        let converter = Converter::Acceleration { g_per_count: 0.001, zero_g_counts: [1.0, 2.0, 3.0], axes, full_scale_g: None };
+        let converter =
+            Converter::Acceleration { g_per_count: 0.001, zero_g_counts: [1.0, 2.0, 3.0], axes, full_scale_g: None };
         (named(&["x", "y", "z"], &["#2", "#3", "#4"]), converter)
     };
     CsvLayout { format, time, values, extra: named(&["optical"], &["#5"]), converter }

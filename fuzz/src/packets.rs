@@ -127,7 +127,16 @@ fn profile(layout: &PacketLayout, is_range: bool, rate_hz: f64) -> Profile {
         images: None,
     };
     if is_range {
-        profile.range = Some(RangeStream { files, rate_hz, gap_s: None, mm_per_count: 1.0, no_target: None, extra, packets, csv: None });
+        profile.range = Some(RangeStream {
+            files,
+            rate_hz,
+            gap_s: None,
+            mm_per_count: 1.0,
+            no_target: None,
+            extra,
+            packets,
+            csv: None,
+        });
     } else {
         profile.acceleration = Some(AccelerationStream {
             files,

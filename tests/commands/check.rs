@@ -7,8 +7,8 @@ use std::process::Output;
 use serde_json::Value;
 
 use crate::support::{
-    Shot, StudyFolder, assert_exit, copy_folder, files_below, label_me, line, published_bench, run, small_camera, small_picture,
-    stderr, stdout,
+    Shot, StudyFolder, assert_exit, copy_folder, files_below, label_me, line, published_bench, run, small_camera,
+    small_picture, stderr, stdout,
 };
 
 const OBJECTS: &str = "object,kind,shape,true_diameter_mm\nplate,plate,circle,200\nbowl,bowl,circle,\n";
@@ -205,7 +205,9 @@ fn mistaken(code: &str, change: impl FnOnce(&Path)) -> String {
     assert_exit(&output, 3);
     let document = json(&output);
     let problems = document["sessions"].as_array().unwrap().iter().flat_map(|s| s["problems"].as_array().unwrap());
-    let told = problems.filter(|problem| problem["code"] == code).map(|problem| format!("{}; {}", problem["fact"], problem["remedy"]));
+    let told = problems
+        .filter(|problem| problem["code"] == code)
+        .map(|problem| format!("{}; {}", problem["fact"], problem["remedy"]));
     told.collect::<Vec<_>>().first().unwrap_or_else(|| panic!("no {code}: {document}")).clone()
 }
 

@@ -212,7 +212,10 @@ fn every_export_of_pupil_s_glasses_is_read_and_has_the_camera_s_pitch() {
     let invisible = pupil_facts("pupil-invisible", &cloud("deg/s", "G", "roll,pitch"), of_cloud, invisible);
     let seen = neon_exports.iter().map(|facts| (facts, 42)).chain([(&invisible, 30)]);
     for (facts, pitch_deg) in seen {
-        assert_eq!((&facts["acceleration"]["clock"]["samples"], facts["extra"].as_array().unwrap().len()), (&2200.into(), 3));
+        assert_eq!(
+            (&facts["acceleration"]["clock"]["samples"], facts["extra"].as_array().unwrap().len()),
+            (&2200.into(), 3)
+        );
         let pitch = &facts["acceleration"]["pitch_deg"];
         let counts: Vec<u64> = pitch["counts"].as_array().unwrap().iter().map(|n| n.as_u64().unwrap()).collect();
         let most = (0..counts.len()).max_by_key(|bin| counts[*bin]).unwrap();
@@ -292,7 +295,7 @@ fn readings_without_a_target_are_no_loss() {
             _ => format!("{line}\n"),
         };
         std::fs::write(&path, text.lines().enumerate().map(other).collect::<String>()).unwrap();
-        let out = study.path().join("out/r.parquet");
+        let out = study.path().join("out/results.parquet");
         let output = run(["run", study.path().to_str().unwrap(), "--out", out.to_str().unwrap()]);
         assert_exit(&output, 0);
         let frames = report::read_frames(&out.with_file_name("frames.parquet")).unwrap();

@@ -187,7 +187,9 @@ impl ProblemCode {
             }
             Self::GravityCalibrationRefused => "lay the device still for 20 s on each side before or after wearing",
             Self::NoImageWithPose => "see frames.parquet for the reason of each image",
-            Self::NoImageSelected => "check mount offset, axes, and target_pitch_deg; the problem names the likely cause",
+            Self::NoImageSelected => {
+                "check mount offset, axes, and target_pitch_deg; the problem names the likely cause"
+            }
             Self::ImplausiblePose => "correct axes or mount offset as the problem says",
             Self::ImplausibleRange => "correct mm_per_count in the device profile",
             Self::ImplausibleGravity => "correct g_per_count in the device profile",

@@ -40,10 +40,7 @@ impl From<&AccelerationStream> for Converter {
 
 impl From<&RangeStream> for Converter {
     fn from(stream: &RangeStream) -> Self {
-        Self::Range {
-            mm_per_count: stream.mm_per_count,
-            no_target: NoTargetReadings::new(stream.no_target.clone()),
-        }
+        Self::Range { mm_per_count: stream.mm_per_count, no_target: NoTargetReadings::new(stream.no_target.clone()) }
     }
 }
 

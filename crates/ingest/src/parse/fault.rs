@@ -103,7 +103,9 @@ pub enum Fault {
         first: String,
     },
     /// Accelerations that no sensor gives. They are left out; what is around them is used.
-    #[error("{samples} of {of} samples are accelerations that the sensor cannot give and are left out, the first {first}")]
+    #[error(
+        "{samples} of {of} samples are accelerations that the sensor cannot give and are left out, the first {first}"
+    )]
     ImpossibleAcceleration {
         /// The number of them.
         samples: u64,

@@ -50,9 +50,7 @@ impl NoTargetReadings {
         let is_field = |word: &str| word.trim().as_bytes().eq_ignore_ascii_case(field);
         match &self.0 {
             None => WORDS.into_iter().any(is_field),
-            Some(declared) => {
-                declared.iter().any(|code| matches!(code, NoTarget::Word(word) if is_field(word)))
-            }
+            Some(declared) => declared.iter().any(|code| matches!(code, NoTarget::Word(word) if is_field(word))),
         }
     }
 }
@@ -77,7 +75,9 @@ mod tests {
             assert_eq!(usual.recorded_mm(count, mm_per_count), 8190.0, "{count} x {mm_per_count}");
         }
         assert_eq!(usual.recorded_mm(819.1, 10.0), 8191.0);
-        for (count, mm_per_count) in [(65535.0, 1.0), (65535.0, 10.0), (6553.5, 10.0), (-1.0, 1.0), (-1.0, 10.0), (-0.1, 10.0)] {
+        for (count, mm_per_count) in
+            [(65535.0, 1.0), (65535.0, 10.0), (6553.5, 10.0), (-1.0, 1.0), (-1.0, 10.0), (-0.1, 10.0)]
+        {
             assert_eq!(usual.recorded_mm(count, mm_per_count), 8190.0, "{count} x {mm_per_count}");
         }
     }
@@ -92,7 +92,8 @@ mod tests {
 
     #[test]
     fn a_declared_list_takes_the_place_of_the_usual_one() {
-        let declared = NoTargetReadings::new(Some(vec![NoTarget::Number(0.0), NoTarget::Number(4000.0), word("OOR"), word("-2")]));
+        let declared =
+            NoTargetReadings::new(Some(vec![NoTarget::Number(0.0), NoTarget::Number(4000.0), word("OOR"), word("-2")]));
         assert_eq!([0.0, 4000.0, -2.0, WORD_COUNT].map(|count| declared.recorded_mm(count, 0.25)), [8190.0; 4]);
         assert_eq!(declared.recorded_mm(65535.0, 0.01), 655.35);
         assert!(declared.is_word(b"oor") && !declared.is_word(b"None"));

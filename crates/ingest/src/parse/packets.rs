@@ -1,8 +1,8 @@
 //! One binary packet: a header with a stamp, then the samples of all channels.
 
+use super::possible::PossibleCounts;
 use super::raw::{RawBlock, Stamps};
 use super::scalar::{read_column, read_float, read_one, read_whole};
-use super::possible::PossibleCounts;
 use super::{Converter, decimal};
 use crate::profile::{Endian, Epoch, PacketLayout, SampleOrder, Scalar, StampAt};
 
@@ -204,7 +204,8 @@ impl PacketParser {
         let impossible: Vec<usize> = self.impossible(counts, whole).into_iter().filter(|i| is_there(*i)).collect();
         let here = (0..whole).filter(|i| is_there(*i)).count() - impossible.len();
         let is_kept = |i: &usize| is_there(*i) && impossible.binary_search(i).is_err();
-        let present = (here < whole).then(|| (0..whole).filter(is_kept).filter_map(|i| u32::try_from(i).ok()).collect());
+        let present =
+            (here < whole).then(|| (0..whole).filter(is_kept).filter_map(|i| u32::try_from(i).ok()).collect());
         let first = impossible.first().map(|i| {
             let values: Vec<f64> = counts.iter().filter_map(|column| column.get(*i).copied()).collect();
             (impossible.len() as u64, format!("sample {i}: {values:?}"))

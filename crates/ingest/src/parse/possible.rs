@@ -40,7 +40,8 @@ impl PossibleCounts {
     pub fn contain(&self, counts: impl IntoIterator<Item = f64>) -> bool {
         counts.into_iter().zip(self.zero_g_counts).all(|(count, zero)| {
             let g = ((count - zero) * self.g_per_count).abs();
-            let filler_from_g = if count.abs() > 32_766.0 && count.abs() < 32_769.0 { CLIPPED_FROM_G } else { FILLER_FROM_G };
+            let filler_from_g =
+                if count.abs() > 32_766.0 && count.abs() < 32_769.0 { CLIPPED_FROM_G } else { FILLER_FROM_G };
             g <= self.most_g && !(g >= filler_from_g && FILLERS.contains(&count.abs()))
         })
     }
@@ -56,9 +57,14 @@ mod tests {
 
     #[test]
     fn fillers_and_damaged_numbers_are_impossible_in_every_unit() {
-        for (count, g_per_count) in
-            [(-9999.0, 1.0), (-9999.0, 0.001), (9999.0, 0.000_976_562_5), (999.0, 0.004), (1e30, 1e-6), (-32_768.0, 0.000_488)]
-        {
+        for (count, g_per_count) in [
+            (-9999.0, 1.0),
+            (-9999.0, 0.001),
+            (9999.0, 0.000_976_562_5),
+            (999.0, 0.004),
+            (1e30, 1e-6),
+            (-32_768.0, 0.000_488),
+        ] {
             assert!(!is_possible(count, g_per_count, None), "{count} x {g_per_count}");
         }
         assert!(!is_possible(9000.0, 0.001, Some(2.0)) && is_possible(9000.0, 0.001, None));
@@ -67,8 +73,8 @@ mod tests {
     #[test]
     fn what_a_sensor_can_give_stays() {
         for (count, g_per_count, full_scale_g) in [
-            (-999.0, 0.001, None),              // -0.999 g
-            (-32_768.0, 1.0 / 16_384.0, None),  // -2 g, the end of a sensor of +-2 g
+            (-999.0, 0.001, None),               // -0.999 g
+            (-32_768.0, 1.0 / 16_384.0, None),   // -2 g, the end of a sensor of +-2 g
             (32_767.0, 1.0 / 8192.0, Some(4.0)), // 4 g, likewise
             (2047.0, 0.001, Some(2.0)),
             (16.3, 1.0, None),

@@ -13,8 +13,8 @@ pub use axes::Axis;
 pub use clock::{Anchor, ClockSpec, Epoch, TimeUnit};
 pub use csv::{AccelerationColumns, CsvFormat, RangeColumns, RowTime};
 pub use images::{ImageTime, Images};
-pub use no_target::NoTarget;
 pub use layout::{Endian, HeaderField, PacketLayout, PacketStamp, SampleOrder, Scalar, StampAt, Step};
+pub use no_target::NoTarget;
 
 use std::path::Path;
 

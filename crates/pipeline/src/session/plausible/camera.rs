@@ -1,6 +1,6 @@
 //! Cameras that can hardly be.
 
-use model::{Camera, LensModel, ProblemCode};
+use model::{Camera, LensModel, ProblemCode, Severity};
 use nalgebra::Point2;
 
 use super::SetupDoubt;
@@ -8,7 +8,8 @@ use super::limits::{FIELD_OF_VIEW_DEG, MOST_FOCAL_RATIO, MOST_OFF_CENTRE, MOST_R
 
 /// The doubts about a camera.
 pub(super) fn doubts(camera: &Camera) -> Vec<SetupDoubt> {
-    let doubt = |(fact, cause)| SetupDoubt { code: ProblemCode::ImplausibleCamera, fact, cause };
+    let doubt =
+        |(fact, cause)| SetupDoubt { severity: Severity::Loss, code: ProblemCode::ImplausibleCamera, fact, cause };
     [field_of_view(camera), focal_ratio(camera), principal_point(camera), lens(camera)]
         .into_iter()
         .flatten()

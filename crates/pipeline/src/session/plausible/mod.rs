@@ -27,6 +27,7 @@ pub(super) fn problems(session: &Session<'_>, prepared: &Prepared, mount_pitch_d
 /// A number that cannot be, and its likely cause.
 #[derive(Debug, Clone, PartialEq)]
 struct SetupDoubt {
+    severity: Severity,
     code: ProblemCode,
     fact: String,
     cause: String,
@@ -35,7 +36,7 @@ struct SetupDoubt {
 impl SetupDoubt {
     fn problem(self, place: &str) -> Problem {
         Problem {
-            severity: Severity::Loss,
+            severity: self.severity,
             stage: Stage::Signals,
             code: self.code,
             place: place.to_owned(),

@@ -58,16 +58,30 @@ fn swapped_axes_are_named() {
     down_forward.pitch_deg = vec![82.0; 30];
     let swapped = "the axes down and forward are swapped";
     assert_told(&told(&down_forward, None, 21.0), ProblemCode::ImplausiblePose, swapped);
-    assert_told(&told(&looked(50.0, 88.0, 450.0, 1.0), None, 21.0), ProblemCode::ImplausiblePose, "right and down are swapped");
+    assert_told(
+        &told(&looked(50.0, 88.0, 450.0, 1.0), None, 21.0),
+        ProblemCode::ImplausiblePose,
+        "right and down are swapped",
+    );
     assert_told(&told(&looked(50.0, -176.0, 450.0, 1.0), None, 21.0), ProblemCode::ImplausiblePose, "wrong sign");
-    assert_told(&told(&looked(5.0, 0.0, 450.0, 1.0), None, 0.0), ProblemCode::ImplausiblePose, "check the mount offset");
+    assert_told(
+        &told(&looked(5.0, 0.0, 450.0, 1.0), None, 0.0),
+        ProblemCode::ImplausiblePose,
+        "check the mount offset",
+    );
 }
 
 #[test]
 fn units_are_named() {
-    assert_told(&told(&looked(50.0, 0.0, 45.0, 1.0), None, 21.0), ProblemCode::ImplausibleRange, "the range sensor's unit is cm");
+    assert_told(
+        &told(&looked(50.0, 0.0, 45.0, 1.0), None, 21.0),
+        ProblemCode::ImplausibleRange,
+        "the range sensor's unit is cm",
+    );
     assert_told(&told(&looked(50.0, 0.0, 1900.0, 1.0), None, 21.0), ProblemCode::ImplausibleRange, "mm_per_count");
-    for (gravity_g, cause) in [(9.81, "m/s^2"), (0.001, "1000 times too small"), (0.0, "zeros"), (0.5, "g_per_count"), (0.102, "10 times")] {
+    for (gravity_g, cause) in
+        [(9.81, "m/s^2"), (0.001, "1000 times too small"), (0.0, "zeros"), (0.5, "g_per_count"), (0.102, "10 times")]
+    {
         assert_told(&told(&looked(50.0, 0.0, 450.0, gravity_g), None, 21.0), ProblemCode::ImplausibleGravity, cause);
     }
 }

@@ -36,16 +36,16 @@ impl Rails {
             _ => Vector3::from_fn(|axis, _| (QUIET_PART * median_sd(axis)).max(NO_NOISE_G)),
         };
         let mut rails = Self { extremes, quiet_g, repeated: [false; 3] };
-        rails.repeated = [0, 1, 2].map(|axis| {
-            windows.iter().filter(|window| rails.is_at_extreme(window, axis)).count() >= REPEATED
-        });
+        rails.repeated =
+            [0, 1, 2].map(|axis| windows.iter().filter(|window| rails.is_at_extreme(window, axis)).count() >= REPEATED);
         rails
     }
 
     /// Whether an axis of the window stands at a rail.
     pub fn hold(&self, window: &Window) -> bool {
         (0..3).any(|axis| {
-            window.mean[axis].abs() > Self::most_at_rest_g() || (self.repeated[axis] && self.is_at_extreme(window, axis))
+            window.mean[axis].abs() > Self::most_at_rest_g()
+                || (self.repeated[axis] && self.is_at_extreme(window, axis))
         })
     }
 

@@ -189,7 +189,10 @@ fn windows_at_a_rail_do_not_spoil_the_fit() {
     // The end of a sensor of +-2 g, the same below, and the ends of sensors of +-1.5 g and +-1.2 g with and without noise.
     for (rail_g, noise_g) in [(1.984, 0.0), (1.984, 0.005), (-2.0, 0.005), (1.5, 0.0), (1.5, 0.005), (-1.25, 0.005)] {
         let calibration = with_stuck_windows(rail_g, noise_g);
-        assert_eq!((calibration.verdict, calibration.windows, calibration.at_rail), (CalibrationVerdict::Accepted, 95, 16));
+        assert_eq!(
+            (calibration.verdict, calibration.windows, calibration.at_rail),
+            (CalibrationVerdict::Accepted, 95, 16)
+        );
         let fit = calibration.accepted().unwrap();
         assert!((fit.offset_g - bad_sensor().offset_g).amax() < 0.002, "{rail_g}: {calibration}");
         assert!((fit.scale - bad_sensor().scale).amax() < 0.002, "{rail_g}: {calibration}");
