@@ -111,7 +111,10 @@ fn an_unknown_name_lists_what_exists() {
     assert!(message.contains("unknown camera 'aim2-rwa' (did you mean 'aim2-raw'?)"), "{message}");
     assert!(message.contains("known are aim2-corrected, aim2-raw, unit-7;"), "{message}");
     let message = Profile::load("../csv", devices.path()).unwrap_err().to_string();
-    assert!(message.contains("known are aim2-packets, axivity-cwa, csv, own-profile, pupil-invisible, pupil-neon;"), "{message}");
+    assert!(
+        message.contains("known are aim2-packets, axivity-cwa, csv, own-profile, pupil-invisible, pupil-neon;"),
+        "{message}"
+    );
 }
 
 #[test]

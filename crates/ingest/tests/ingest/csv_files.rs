@@ -138,13 +138,15 @@ fn a_profile_says_what_no_target_is() {
 #[test]
 fn accelerations_that_no_sensor_has_are_left_out_and_told_with_their_line() {
     let axes = [Axis::PlusX, Axis::PlusY, Axis::PlusZ];
-    let converter = Converter::Acceleration { g_per_count: 1.0, zero_g_counts: [0.0; 3], axes, full_scale_g: Some(2.0) };
+    let converter =
+        Converter::Acceleration { g_per_count: 1.0, zero_g_counts: [0.0; 3], axes, full_scale_g: Some(2.0) };
     let values = ["x", "y", "z"].map(str::to_owned).to_vec();
     let text = b"t,x,y,z\n1,0,-1,0\n2,0,-9999,0\n3,0,0,4\n4,1e30,0,0\n5,0,0,-2.1\n";
     let (samples, faults) = read_with(text, CsvLayout { converter, values, ..layout(column(TimeUnit::S), ',') });
     assert_eq!(samples, [(1_000_000_000, vec![0.0, -1.0, 0.0]), (5_000_000_000, vec![0.0, 0.0, -2.1])]);
     let first = "in line 3: [0.0, -9999.0, 0.0]".to_owned();
     assert_eq!(faults, [Fault::ImpossibleAcceleration { samples: 3, of: 5, first }]);
+}
 
 /// Samples one second apart.
 const TWO_ROWS: &[u8] = b"t,range\n1,2\n2,3\n";
