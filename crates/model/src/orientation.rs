@@ -113,6 +113,7 @@ mod tests {
     ];
 
     #[test]
+    #[expect(clippy::float_cmp, reason = "halves are exact")]
     fn pixels_go_where_pil_puts_them() {
         for (orientation, (width, shown)) in Orientation::ALL.into_iter().zip(SHOWN_BY_PIL) {
             assert_eq!(orientation.shown_size_px([3, 2])[0], width, "{orientation:?}");

@@ -90,7 +90,7 @@ struct Shape {
 
 impl Shape {
     /// The shape, with its points carried over from a frame of the picture to the stored one.
-    fn to_stored(mut self, picture: &MarkedPicture, frame: MarksFrame) -> Self {
+    fn into_stored(mut self, picture: &MarkedPicture, frame: MarksFrame) -> Self {
         self.points.iter_mut().for_each(|point_px| *point_px = picture.to_stored(frame, *point_px));
         self
     }
@@ -147,7 +147,7 @@ pub fn parse(bytes: &[u8], path: &Path, picture: impl Into<MarkedPicture>) -> Re
         let refuse =
             |label: &str, fact| MarksError::Shape { path: path.to_owned(), number, label: label.to_owned(), fact };
         let shape: Shape = match serde_json::from_str::<Shape>(value.get()) {
-            Ok(shape) => shape.to_stored(&picture, frame),
+            Ok(shape) => shape.into_stored(&picture, frame),
             Err(error) => {
                 refused.push(refuse("", format!("cannot be read: {error}")));
                 continue;
