@@ -16,9 +16,6 @@ const SEGMENT: &str = "a marker of JPEG (ff c0 to ff fe)";
 /// A damaged card loses or changes whole sectors.
 const SECTOR_BYTES: usize = 512;
 
-const TEM: u8 = 0x01;
-const RST0: u8 = 0xd0;
-const RST7: u8 = 0xd7;
 const SOI: u8 = 0xd8;
 const EOI: u8 = 0xd9;
 const SOS: u8 = 0xda;
@@ -88,21 +85,16 @@ impl<'a> Walk<'a> {
     /// would give.
     fn marker(&mut self) -> Result<(usize, u8), ImageDamage> {
         let start = self.at;
-        loop {
-            let stray = memchr(0xff, &self.bytes[self.at..]).ok_or_else(|| self.no_end())?;
-            let at = self.at + stray;
-            let fill = self.bytes[at..].iter().take_while(|byte| **byte == 0xff).count();
-            let code = *self.bytes.get(at + fill).ok_or_else(|| self.no_end())?;
-            self.at = at + fill + 1;
-            let is_stray = matches!(code, 0x00 | TEM | RST0..=RST7);
-            self.stray_bytes += stray + if is_stray { fill + 1 } else { 0 };
-            if self.stray_bytes >= SECTOR_BYTES {
-                return Err(strange(self.bytes, start, SEGMENT));
-            }
-            if !is_stray {
-                return Ok((at, code));
-            }
+        let stray = memchr(0xff, &self.bytes[start..]).ok_or_else(|| self.no_end())?;
+        self.stray_bytes += stray;
+        if self.stray_bytes >= SECTOR_BYTES {
+            return Err(strange(self.bytes, start, SEGMENT));
         }
+        let at = start + stray;
+        let fill = self.bytes[at..].iter().take_while(|byte| **byte == 0xff).count();
+        let code = *self.bytes.get(at + fill).ok_or_else(|| self.no_end())?;
+        self.at = at + fill + 1;
+        Ok((at, code))
     }
 
     /// Reads the segment whose marker is at `marker_at`, and goes on behind it.
