@@ -7,6 +7,7 @@ use crate::doubt::{Doubt, assumes_vertical_wall, wall_doubt, wall_slope};
 use crate::marks::ObjectMarks;
 use crate::measure::{MeasureError, Measured, Sized, sizes, view_of_method};
 use crate::source::{PerSource, Source, SourceCovariance};
+use crate::stats::median;
 use crate::view::View;
 
 /// Standard uncertainties (k = 1) of the inputs of a size (docs/uncertainty.md). Except for [`Self::learned`] the errors are
@@ -132,6 +133,12 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
+    /// The derivatives of `factor` times the size.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        Self { by_source: self.by_source * factor, marks_mm_per_px: self.marks_mm_per_px * factor.abs() }
+    }
+
     /// The derivatives by pitch, tilt and range offset, in the order of [`InputSigma::noise`].
     #[must_use]
     pub fn by_noise(&self) -> Vector3<f64> {
@@ -169,6 +176,8 @@ pub struct SizeSigma {
     pub marks_mm: f64,
     /// The part from focal length, principal point and lens.
     pub camera_mm: f64,
+    /// The part from the disagreement of the sizes that were fused, beyond what the parts above allow; 0 for one picture.
+    pub disagreement_mm: f64,
 }
 
 impl SizeSigma {
@@ -177,6 +186,22 @@ impl SizeSigma {
     pub fn with_marks(self, marks_mm: f64) -> Self {
         let others = (self.total_mm.powi(2) - self.marks_mm.powi(2)).max(0.0);
         Self { marks_mm, total_mm: (others + marks_mm.powi(2)).sqrt(), ..self }
+    }
+
+    /// This uncertainty with another part from disagreement, which is independent of the other parts.
+    #[must_use]
+    pub fn with_disagreement(self, disagreement_mm: f64) -> Self {
+        let others = (self.total_mm.powi(2) - self.disagreement_mm.powi(2)).max(0.0);
+        Self { disagreement_mm, total_mm: (others + disagreement_mm.powi(2)).sqrt(), ..self }
+    }
+
+    /// The total, in mm, for a size of `to_mm` instead of one of `from_mm`: the parts from pose, range and camera are in proportion
+    /// to the size, those from marks and disagreement are not.
+    #[must_use]
+    pub fn total_at(&self, from_mm: f64, to_mm: f64) -> f64 {
+        let fixed = self.marks_mm.powi(2) + self.disagreement_mm.powi(2);
+        let proportional = (self.total_mm.powi(2) - fixed).max(0.0);
+        (fixed + proportional * proportion(from_mm, to_mm).powi(2)).sqrt()
     }
 
     /// The uncertainty from the derivatives by the sources, the sources' covariance, the variances (in mm^2) from the noise of
@@ -205,8 +230,16 @@ impl SizeSigma {
             range_mm: (variance(&[Source::RangeScale, Source::RangeOffset]) + noise.z).sqrt(),
             marks_mm,
             camera_mm: variance(&[Source::Focal, Source::PrincipalX, Source::PrincipalY, Source::Distortion]).sqrt(),
+            disagreement_mm: 0.0,
         }
     }
+}
+
+/// The factor by which an error that is proportional to the size grows from a size of `from_mm` to one of `to_mm`; 1 where the
+/// sizes have no proportion.
+pub(crate) fn proportion(from_mm: f64, to_mm: f64) -> f64 {
+    let factor = to_mm / from_mm;
+    if from_mm > 0.0 && to_mm > 0.0 && factor.is_finite() { factor } else { 1.0 }
 }
 
 /// A size with its uncertainty.
@@ -266,10 +299,15 @@ fn size_mm(sizes: &[(Quantity, Result<Sized, MeasureError>)], wanted: Quantity) 
 }
 
 /// The estimate for `method = "best"`: the one with the fewest doubts, and among several of those the one with the smallest
-/// uncertainty. `None` when there are no estimates.
+/// uncertainty. The uncertainties are compared for the same size, the median of the estimates, since a size that is too small
+/// has a small uncertainty for that alone. `None` when there are no estimates.
 #[must_use]
 pub fn best_of<'a>(estimates: impl IntoIterator<Item = &'a Estimate>) -> Option<&'a Estimate> {
+    let estimates: Vec<&Estimate> = estimates.into_iter().collect();
+    let size_mm = |estimate: &Estimate| estimate.measured.predicted_mm;
+    let middle_mm = median(estimates.iter().map(|estimate| size_mm(estimate)).collect());
+    let sigma = |estimate: &Estimate| estimate.sigma.total_at(size_mm(estimate), middle_mm);
     estimates
         .into_iter()
-        .min_by(|a, b| a.doubts.len().cmp(&b.doubts.len()).then(a.sigma.total_mm.total_cmp(&b.sigma.total_mm)))
+        .min_by(|a, b| a.doubts.len().cmp(&b.doubts.len()).then(sigma(a).total_cmp(&sigma(b))))
 }

@@ -3,7 +3,7 @@
 
 use aim_batch_model::{
     Camera, Doubt, Estimate, Fused, InputSigma, JointError, LensModel, Mark, Measured, Method, ObjectMarks, PerSource,
-    Pose, Quantity, Sensitivity, Share, Sight, Source, Verdict, View, best_of, fuse, joint_height, sights,
+    Part, Pose, Quantity, Sensitivity, Share, Sight, Sights, Source, Verdict, View, best_of, fuse, joint_height, sights,
 };
 use nalgebra::Point3;
 use rand::SeedableRng;
@@ -25,7 +25,7 @@ fn share(value_mm: f64, picture: usize) -> Share {
     by_source[Source::RangeScale.index()] = 200.0;
     by_source[Source::RangeOffset.index()] = 0.4;
     let sensitivity = Sensitivity { by_source, marks_mm_per_px: 0.8 };
-    Share { value_mm, sensitivity, inputs: INPUTS, picture, penalty: 1.0 }
+    Share::of_picture(value_mm, Part { sensitivity, inputs: INPUTS, picture }, 1.0)
 }
 
 fn fused(values: &[f64]) -> Fused {
@@ -107,9 +107,14 @@ fn sight(view: &View) -> Vec<Sight> {
     sights(view, &ObjectMarks { object: "bowl".to_owned(), marks: vec![line] }).unwrap()
 }
 
+fn pictures(pitches_deg: &[f64]) -> Vec<Sights> {
+    let sights = |(picture, pitch): (usize, &f64)| Sights { walls: sight(&view(*pitch)), inputs: INPUTS, picture };
+    pitches_deg.iter().enumerate().map(sights).collect()
+}
+
 #[test]
 fn height_and_slope_together() {
-    let pictures: Vec<_> = [40.0, 55.0, 70.0].map(|pitch| (sight(&view(pitch)), INPUTS)).to_vec();
+    let pictures = pictures(&[40.0, 55.0, 70.0]);
     let joint = joint_height(&pictures).unwrap();
     assert!((joint.height_mm - 60.0).abs() < 1e-6 && (joint.overhang_mm - 24.0).abs() < 1e-6, "{joint:?}");
     assert!(joint.sigma.total_mm > 1.0 && joint.sigma.total_mm < 20.0);
@@ -117,7 +122,7 @@ fn height_and_slope_together() {
 
 #[test]
 fn pictures_from_one_angle_say_nothing() {
-    let alike: Vec<_> = [55.0, 55.4].map(|pitch| (sight(&view(pitch)), INPUTS)).to_vec();
+    let alike = pictures(&[55.0, 55.4]);
     assert!(matches!(joint_height(&alike), Err(JointError::TooAlike { .. })));
     assert_eq!(joint_height(&alike[..1]), Err(JointError::TooFew(1)));
 }
