@@ -16,7 +16,7 @@ const LAYERS: [(&str, &[&str]); 7] = [
 ];
 
 /// Crates with few homes, and why.
-const HOMES: [(&[&str], &[&str], &str); 10] = [
+const HOMES: [(&[&str], &[&str], &str); 11] = [
     (&["mcap", "foxglove", "prost"], &["ingest"], "only ingest knows what a recording looks like inside"),
     (
         // simulate writes pictures, which is no decoding; ingest writes small ones for reports and viewers.
@@ -25,6 +25,7 @@ const HOMES: [(&[&str], &[&str], &str); 10] = [
         "pictures are decoded and reduced by ingest alone; simulate encodes those that it renders",
     ),
     (&["zune-jpeg", "turbojpeg", "png", "kamadak-exif"], &["ingest"], "pictures are decoded by ingest alone"),
+    (&["unicode-normalization"], &["ingest"], "names are compared in one form, which ingest::nfc alone gives"),
     (&["rayon"], &["pipeline", "simulate"], "work is shared out by pipeline over sessions, and by simulate's renderer"),
     (&["rusqlite", "redb"], &["pipeline"], "what is kept between runs is pipeline's alone"),
     (&["askama"], &["report"], "pages and figures are made from results alone"),

@@ -14,6 +14,7 @@ const CRATES: [(&str, Layers); 2] = [("pipeline", PIPELINE), ("rims", RIMS)];
 const PIPELINE: Layers = &[
     ("fault", 1),
     ("inputs", 1),
+    ("json", 1),
     ("overlay", 1),
     ("reporter", 1),
     ("signals", 1),

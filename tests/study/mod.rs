@@ -9,6 +9,8 @@ mod flow;
 mod gallery;
 mod large;
 pub mod methods;
+mod misplaced;
 mod names;
 mod published_bench;
 mod squares;
+mod unicode;

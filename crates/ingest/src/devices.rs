@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 
+use crate::card::entry_named;
 use crate::config::{self, ConfigError};
 
 /// The built-in files of one kind.
@@ -23,13 +24,13 @@ pub(crate) fn find<T: DeserializeOwned>(
     devices_dir: &Path,
 ) -> Result<(PathBuf, T), ConfigError> {
     if Path::new(name_or_path).extension().is_some_and(|extension| extension == "toml") {
-        let path = devices_dir.join(name_or_path);
+        let path = entry_named(devices_dir, name_or_path).unwrap_or_else(|| devices_dir.join(name_or_path));
         return config::read_toml(&path).map(|value| (path, value));
     }
     // A name is one path component: '../x' is no name.
     let is_name = !name_or_path.is_empty() && !name_or_path.contains(['/', '\\']);
-    let path = devices_dir.join(format!("{name_or_path}.toml"));
-    if is_name && path.is_file() {
+    let file = format!("{name_or_path}.toml");
+    if let Some(path) = entry_named(devices_dir, &file).filter(|path| is_name && path.is_file()) {
         return config::read_toml(&path).map(|value| (path, value));
     }
     match shelf.built_in.iter().find(|(name, _)| *name == name_or_path) {

@@ -59,6 +59,7 @@ mod source;
 mod summary;
 mod thumbnail;
 pub mod timeline;
+mod unicode;
 
 pub use annotate::{
     AnnotateError, Annotating, ImageNotes, LogLevel, LogNote, MarkNote, annotate_session, annotated_key,
@@ -78,3 +79,4 @@ pub use sample::Sample;
 pub use source::SessionSource;
 pub use summary::{Counts, DroppedImage, ImageEntry, IngestSummary};
 pub use thumbnail::{Thumbnail, thumbnail};
+pub use unicode::{nfc, spelled_out};

@@ -16,6 +16,7 @@ coded_enum! {
         CardDoesNotFitProfile = "card_does_not_fit_profile": "no file of the card fits a pattern of the device profile",
         ObjectNeverMeasured = "object_never_measured": "`check`: no mark in the study gives a size of an object of objects.csv",
         TableStaysEmpty = "table_stays_empty": "`check`: no size that the study gives fits a table of study.toml",
+        FoldersAlike = "folders_alike": "two folders of sessions or marks have one name in two Unicode forms",
         NoFiles = "no_files": "a stream that the profile declares has no file on the card",
         NotDeclared = "not_declared": "the profile declares no images, accelerometer or range sensor; sizes need all three",
         NotAFile = "not_a_file": "a pipe, socket or device lies on the card; it is not opened",
@@ -26,6 +27,7 @@ coded_enum! {
         NamesDifferInCase = "names_differ_in_case": "names of files differ in upper and lower case alone",
         DuplicateFile = "duplicate_file": "a file is the same as another one, byte for byte; it is used once",
         CardChanged = "card_changed": "the card was changed while it was read",
+        NamesDifferInForm = "names_differ_in_form": "names on the card are the same but for their Unicode form, as where macOS stored one of them",
         TruncatedPacket = "truncated_packet": "a file ends inside a packet; the packet is lost",
         ZeroBlocks = "zero_blocks": "blocks of zeros stand where packets should be; they are lost",
         LostAlignment = "lost_alignment": "bytes are missing or too many inside a packet; reading went on at the next one that fits",
@@ -74,6 +76,7 @@ coded_enum! {
         NamedTwice = "named_twice": "names.csv gives one name to two containers of one image; one is left out",
         NameNotFound = "name_not_found": "a line of names.csv names nothing that was found",
         PictureNotSearched = "picture_not_searched": "a picture could not be searched for rims",
+        MarksMisplaced = "marks_misplaced": "files of marks lie where none are read: beside the pictures, or without a folder of a rater or session",
         NothingToMeasure = "nothing_to_measure": "the marks of an object give no size of its shape",
         MarkOffPlane = "mark_off_plane": "a mark does not meet the plane that it is measured on",
         NoCircle = "no_circle": "the points of a rim or base fix no circle",
@@ -109,6 +112,7 @@ impl ProblemCode {
                 "mark the object in at least one picture with a pose, or take it out of objects.csv"
             }
             Self::TableStaysEmpty => "mark what the table asks for, or change or remove the table",
+            Self::FoldersAlike => "rename one of them, or put the content of both into one",
             Self::NoFiles => "copy the card again; if the device does not write the stream, take it out of the profile",
             Self::NotDeclared => "add the table to the profile, if the device writes such files",
             Self::NotAFile => "copy the card again",
@@ -119,6 +123,7 @@ impl ProblemCode {
             Self::NamesDifferInCase => "rename one of them: other systems take them for one file",
             Self::DuplicateFile => "remove one of the two",
             Self::CardChanged => "run again when the card is complete",
+            Self::NamesDifferInForm => "rename one of them: to people they look the same",
             Self::TruncatedPacket => "copy the file again; if it stays so, the recording broke off there",
             Self::ZeroBlocks => "copy the card again; if it stays so, the medium is damaged",
             Self::LostAlignment => "copy the file again",
@@ -181,6 +186,7 @@ impl ProblemCode {
                 "look up the names in the results, which change with the settings, or take the line out"
             }
             Self::PictureNotSearched => "look at the picture; mark it by hand, or copy it from the card again",
+            Self::MarksMisplaced => "move them to marks/RATER/SESSION by the command that is given",
             Self::NothingToMeasure => "mark a diameter, width, length, height or the rim (docs/study.md)",
             Self::MarkOffPlane => "correct the mark, or check pitch and range of the image",
             Self::NoCircle => "mark more of the outline",

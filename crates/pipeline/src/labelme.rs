@@ -5,10 +5,12 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use ingest::nfc;
 use model::{Feature, Mark, ObjectMarks, Quantity};
 use nalgebra::Point2;
 use serde::Deserialize;
 
+use crate::json::with_null_for_nan;
 pub use error::MarksError;
 use rims::Found;
 pub(crate) use write::{AutoRim, Shape as OutShape, text_of, text_of_shapes};
@@ -72,6 +74,19 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, MarksError> {
     Ok(bytes)
 }
 
+/// Whether a file can be read as JSON with the list of shapes that LabelMe's files have.
+pub(crate) fn is_labelme(path: &Path) -> bool {
+    #[derive(Deserialize)]
+    struct Shapes {
+        #[serde(rename = "shapes")]
+        _shapes: Vec<serde::de::IgnoredAny>,
+    }
+    read_bytes(path).is_ok_and(|bytes| {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+        serde_json::from_slice::<Shapes>(&with_null_for_nan(bytes)).is_ok()
+    })
+}
+
 /// The marks in the bytes of a LabelMe file. `path` is for messages; `picture_px` is the width and height of the pictures
 /// that were marked.
 ///
@@ -126,7 +141,8 @@ fn found_of(shape: &Shape) -> Result<Option<Found>, String> {
 }
 
 fn mark(shape: &Shape) -> Result<(String, Mark), String> {
-    let Some((object, what)) = shape.label.rsplit_once('/').filter(|(object, _)| !object.is_empty()) else {
+    let label = nfc(&shape.label);
+    let Some((object, what)) = label.rsplit_once('/').filter(|(object, _)| !object.is_empty()) else {
         return Err(format!("expected a label like {EXPECTED}"));
     };
     if !shape.points.iter().flatten().all(|c| c.is_finite()) {

@@ -21,6 +21,7 @@ mod fault;
 mod gallery;
 mod inputs;
 pub mod inspect;
+mod json;
 pub mod labelme;
 pub mod overlay;
 mod parallel;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Write as _};
 use std::path::{Component, Path, PathBuf};
 
+use ingest::card::entry_named;
 use model::Stage;
 
 use crate::labelme::{AutoRim, text_of};
@@ -63,7 +64,7 @@ pub fn write_marks(
         let refuse = |source| WriteMarksError::Kept { session: dir.name.clone(), source };
         let output: SessionOutput = serde_json::from_str(&text).map_err(refuse)?;
         if let (false, Ok(prepared)) = (output.auto.is_empty(), Prepared::new(study, dir, program)) {
-            let session = Writer { dir, prepared: &prepared, folder: folder.join(AUTO).join(&dir.name) };
+            let session = Writer { dir, prepared: &prepared, folder: there_or_new(&folder.join(AUTO), &dir.name) };
             session.write(&output.auto, &mut written)?;
         }
     }
@@ -94,7 +95,7 @@ impl Writer<'_> {
             let picture_px = self.prepared.marks_camera.1.size_px();
             let text = text_of(rims, &picture_for(&self.folder, self.dir, self.prepared, image), picture_px)
                 .map_err(io::Error::from);
-            let path = self.folder.join(format!("{stem}.json"));
+            let path = there_or_new(&self.folder, &format!("{stem}.json"));
             let done =
                 text.and_then(|text| write_unless_other(&path, &text)).map_err(|source| failed(&path, source))?;
             *(if done { &mut written.files } else { &mut written.left }) += 1;
@@ -108,8 +109,17 @@ impl Writer<'_> {
 pub(crate) fn picture_for(folder: &Path, dir: &SessionDir, prepared: &Prepared, image: &str) -> String {
     let beside = || image.rsplit('/').next().unwrap_or(image).to_owned();
     let is_recorded = prepared.camera == prepared.marks_camera.1;
-    let picture = dir.card.as_ref().filter(|_| is_recorded).map(|card| card.join(image));
+    let picture = dir
+        .card
+        .as_ref()
+        .filter(|_| is_recorded)
+        .map(|card| image.split('/').fold(card.clone(), |folder, part| there_or_new(&folder, part)));
     picture.and_then(|picture| relative_path(folder, &picture)).unwrap_or_else(beside)
+}
+
+/// The file or folder of this name, in whatever Unicode form it is there; else the place for a new one.
+fn there_or_new(folder: &Path, name: &str) -> PathBuf {
+    entry_named(folder, name).unwrap_or_else(|| folder.join(name))
 }
 
 fn failed(path: &Path, source: io::Error) -> WriteMarksError {

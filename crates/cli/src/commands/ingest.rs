@@ -36,7 +36,8 @@ pub struct IngestArgs {
 
 /// Ingests the card, prints the numbers of images and samples, and writes to stderr what was lost.
 pub fn run(args: &IngestArgs, bars: &Bars) -> Result<Outcome, Failure> {
-    let session = args.card.canonicalize().ok().and_then(|path| Some(path.file_name()?.to_string_lossy().into_owned()));
+    let session =
+        args.card.canonicalize().ok().and_then(|path| Some(::ingest::nfc(path.file_name()?.to_string_lossy())));
     let source = SessionSource {
         session: session.unwrap_or_else(|| "session".to_owned()),
         card_dir: args.card.clone(),

@@ -11,7 +11,7 @@ mod stream;
 mod unread;
 mod walk;
 
-pub use names::name_text;
+pub use names::{entry_named, exact_name_text, name_text};
 pub use patterns::{PatternError, Patterns};
 pub use walk::{Card, CardFile};
 

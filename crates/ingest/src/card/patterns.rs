@@ -2,7 +2,9 @@
 
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
 
-/// Patterns relative to the card: `*` stays within a folder, `**` does not; upper and lower case differ. Hidden files (a
+use crate::unicode::nfc;
+
+/// Patterns relative to the card: `*` stays within a folder, `**` does not; upper and lower case differ, Unicode forms do not. Hidden files (a
 /// part of the path begins with `.`, as in `._A.JPG` of macOS) fit only if a pattern itself names something hidden.
 #[derive(Debug, Clone)]
 pub struct Patterns {
@@ -39,7 +41,7 @@ impl Patterns {
         };
         let mut set = GlobSetBuilder::new();
         for pattern in patterns {
-            let glob = GlobBuilder::new(pattern).literal_separator(true).case_insensitive(any_case).build();
+            let glob = GlobBuilder::new(&nfc(pattern)).literal_separator(true).case_insensitive(any_case).build();
             set.add(glob.map_err(|e| error(pattern, &e))?);
         }
         let globs = set.build().map_err(|e| error(&patterns.join(" "), &e))?;
@@ -49,7 +51,7 @@ impl Patterns {
     /// Whether a path relative to the card, with `/`, fits one of them.
     #[must_use]
     pub fn fits(&self, path: &str) -> bool {
-        (self.fits_hidden || !is_hidden(path)) && self.globs.is_match(path)
+        (self.fits_hidden || !is_hidden(path)) && self.globs.is_match(nfc(path))
     }
 }
 

@@ -4,13 +4,15 @@ use std::path::Path;
 
 use model::{Problem, ProblemCode, Severity, Stage};
 
+use crate::unicode::nfc;
+
 /// A card, as messages name it: `cards/SESSION` in a study, else the folder's name.
 #[derive(Debug, Clone)]
 pub(crate) struct Place(String);
 
 impl Place {
     pub fn of_card(card_dir: &Path) -> Self {
-        let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
+        let name = |path: &Path| path.file_name().map(|name| nfc(name.to_string_lossy()));
         let own = name(card_dir).unwrap_or_else(|| card_dir.display().to_string());
         match card_dir.parent().and_then(name) {
             Some(parent) if parent == "cards" => Self(format!("cards/{own}")),

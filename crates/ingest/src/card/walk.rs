@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use model::{Problem, ProblemCode};
 use walkdir::{DirEntry, WalkDir};
 
-use super::names::{card_name, odd_names};
+use super::names::{card_name, normalise, odd_names};
 use super::{Patterns, Place};
 use crate::fingerprint::FileStamp;
 
@@ -16,7 +16,7 @@ const SYSTEM_FOLDERS: [&str; 6] =
 /// A file of a card.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CardFile {
-    /// Path relative to the card, with `/`; unique. Bytes that are not UTF-8, and control characters, are written `\xff`,
+    /// Path relative to the card, with `/`; unique, and in Unicode's form C unless two would then be the same. Bytes that are not UTF-8, and control characters, are written `\xff`,
     /// a backslash in a name as `\\`.
     pub name: String,
     /// The place where it is.
@@ -67,6 +67,7 @@ impl Card {
             }
         }
         card.problems.append(&mut links);
+        card.problems.extend(normalise(&mut card.files, &place));
         card.problems.extend(odd_names(&card.files, &place));
         // Sorted by the name with '/', which is not the order of a walk: 'A.BIN' stands before 'A/1.BIN' here.
         card.files.sort_by(|a, b| a.name.cmp(&b.name));

@@ -29,6 +29,8 @@ pub struct ForeignImage {
     pub name: String,
     /// The width and height as the tool saw them.
     pub size_px: Option<[u32; 2]>,
+    /// The reason why nothing on it can be used: its size is given, but cannot be read.
+    pub fault: Option<String>,
     /// The annotations on it, in the order of the file.
     pub annotations: Vec<Annotation>,
 }

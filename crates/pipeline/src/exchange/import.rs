@@ -3,15 +3,17 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use ingest::nfc;
+
 use super::convert::{ConvertedMark, marks_of};
 use super::foreign::{ForeignImage, Refused, short};
 use super::label::Names;
 use super::pictures::{Picture, Pictures};
+use super::target::{Target, There};
 use super::{ExchangeError, read};
-use crate::labelme::{self, MarksError, OutShape};
-use crate::session::Prepared;
-use crate::study::{AUTO, SessionDir, Study, stem_of};
-use crate::write_marks::{picture_for, write_whole};
+use crate::labelme::{self, MarksError};
+use crate::study::{AUTO, Study};
+use crate::write_marks::write_whole;
 
 /// Settings of an import.
 #[derive(Debug, Clone)]
@@ -61,6 +63,7 @@ pub fn import(study: &Study, file: &Path, options: &ImportOptions) -> Result<Imp
     if !is_rater(&options.rater) {
         return Err(ExchangeError::Rater(options.rater.clone()));
     }
+    let options = &normalised(options);
     check_session(study, options.session.as_deref())?;
     let foreign = read(&labelme::read_bytes(file)?, file)?;
     let import = Import {
@@ -88,6 +91,15 @@ pub fn import(study: &Study, file: &Path, options: &ImportOptions) -> Result<Imp
         }
     }
     Ok(imported)
+}
+
+/// The settings with names in the form in which they are compared.
+fn normalised(options: &ImportOptions) -> ImportOptions {
+    let mut options = options.clone();
+    options.rater = nfc(options.rater);
+    options.session = options.session.map(nfc);
+    options.ignored = options.ignored.into_iter().map(nfc).collect();
+    options
 }
 
 fn at_image(image: &ForeignImage, fact: String) -> Refused {
@@ -139,6 +151,10 @@ impl Import<'_> {
         };
         let target = Target::new(self.options, session.dir, prepared, &picture.file);
         let picture_px = target.picture_px();
+        if let Some(fault) = image.fault.as_ref().filter(|_| !image.annotations.is_empty()) {
+            imported.refused.push(at_image(image, fault.clone()));
+            return Ok(());
+        }
         if let Some([got_width, got_height]) = image.size_px.filter(|size_px| *size_px != picture_px) {
             let [width, height] = picture_px;
             let fact = format!(
@@ -155,7 +171,7 @@ impl Import<'_> {
     fn marks(&self, image: &ForeignImage, picture_px: [u32; 2], imported: &mut Imported) -> Vec<Placed> {
         let mut placed = Vec::new();
         for annotation in &image.annotations {
-            if self.options.ignored.contains(&annotation.label) {
+            if self.options.ignored.contains(&nfc(&annotation.label)) {
                 imported.ignored += 1;
                 continue;
             }
@@ -205,7 +221,7 @@ impl Import<'_> {
         }
         if !self.options.dry_run {
             std::fs::create_dir_all(&target.folder).map_err(|source| target.failed(source))?;
-            let text = target.text(&placed)?;
+            let text = target.text(placed.iter().map(|placed| &placed.mark))?;
             write_whole(&target.path, &text).map_err(|source| target.failed(source))?;
         }
         imported.written += 1;
@@ -220,7 +236,7 @@ fn accepted(
     target: &Target<'_>,
     imported: &mut Imported,
 ) -> Result<(Vec<Placed>, labelme::Marks), ExchangeError> {
-    let text = target.text(&placed)?;
+    let text = target.text(placed.iter().map(|placed| &placed.mark))?;
     let mut marks = labelme::parse(text.as_bytes(), &target.path, target.picture_px())?;
     let mut refused = BTreeMap::new();
     for error in std::mem::take(&mut marks.refused) {
@@ -236,62 +252,4 @@ fn accepted(
         }
     }
     Ok((kept, marks))
-}
-
-/// The LabelMe file of an image.
-struct Target<'a> {
-    folder: PathBuf,
-    path: PathBuf,
-    dir: &'a SessionDir,
-    prepared: &'a Prepared,
-    /// The picture on the card.
-    file: &'a str,
-}
-
-/// The content of a file that is there already.
-#[derive(PartialEq)]
-enum There {
-    Marks(Vec<model::ObjectMarks>),
-    /// Something that cannot be read as marks.
-    Other,
-}
-
-impl<'a> Target<'a> {
-    fn new(options: &ImportOptions, dir: &'a SessionDir, prepared: &'a Prepared, file: &'a str) -> Self {
-        // This is the folder's own name, whatever bytes it consists of.
-        let session = dir.card.as_deref().and_then(Path::file_name).unwrap_or(dir.name.as_ref());
-        let folder = options.folder.join(&options.rater).join(session);
-        let path = folder.join(format!("{}.json", stem_of(file)));
-        Self { folder, path, dir, prepared, file }
-    }
-
-    fn picture_px(&self) -> [u32; 2] {
-        self.prepared.marks_camera.1.size_px()
-    }
-
-    /// The text of the file. It holds the way to the picture, which is known once there is a folder for the marks.
-    fn text(&self, placed: &[Placed]) -> Result<String, ExchangeError> {
-        let shapes = placed.iter().map(|Placed { mark, .. }| {
-            let ConvertedMark { label, shape_type, points_px } = mark;
-            OutShape::new(label.clone(), shape_type, points_px)
-        });
-        let picture = picture_for(&self.folder, self.dir, self.prepared, self.file);
-        let text = labelme::text_of_shapes(shapes.collect(), &picture, self.picture_px());
-        text.map_err(|error| self.failed(error.into()))
-    }
-
-    fn marks_there(&self) -> Result<Option<There>, ExchangeError> {
-        if !self.path.try_exists().map_err(|source| self.failed(source))? {
-            return Ok(None);
-        }
-        let bytes = labelme::read_bytes(&self.path)?;
-        Ok(Some(match labelme::parse(&bytes, &self.path, self.picture_px()) {
-            Ok(marks) if marks.refused.is_empty() => There::Marks(marks.objects),
-            Ok(_) | Err(_) => There::Other,
-        }))
-    }
-
-    fn failed(&self, source: std::io::Error) -> ExchangeError {
-        ExchangeError::Write { path: self.path.clone(), source }
-    }
 }

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use ingest::config::nearest;
+use ingest::nfc;
 use model::{Feature, Quantity};
 
 use super::foreign::{Annotation, short};
@@ -68,26 +69,31 @@ impl Names {
     /// The names that labels may use: `objects` are those of objects.csv, `renamed` holds labels of the file, each with the
     /// label that it stands for.
     pub fn new<'a>(objects: impl IntoIterator<Item = &'a String>, renamed: BTreeMap<String, String>) -> Self {
-        Self { objects: objects.into_iter().cloned().collect(), renamed, messages: RefCell::default() }
+        Self {
+            objects: objects.into_iter().cloned().collect(),
+            renamed: renamed.into_iter().map(|(label, meaning)| (nfc(label), nfc(meaning))).collect(),
+            messages: RefCell::default(),
+        }
     }
 
     /// # Errors
     /// A text that says what is unclear, and what was expected.
     pub(super) fn meaning(&self, annotation: &Annotation) -> Result<Meaning, String> {
-        let label = self.renamed.get(&annotation.label).unwrap_or(&annotation.label);
-        let attribute = |key: &str| annotation.attributes.get(key).map(String::as_str);
+        let label = nfc(&annotation.label);
+        let label = self.renamed.get(&label).unwrap_or(&label);
+        let attribute = |key: &str| annotation.attributes.get(key).map(nfc);
         if let Some((object, code)) = label.rsplit_once('/') {
             let what = What::from_code(code).ok_or_else(|| self.unclear(label))?;
             return Ok(Meaning { object: self.known(object)?, what: Some(what) });
         }
         if let Some(what) = What::from_code(label).filter(|_| !self.has(label)) {
             let object = attribute(OBJECT).ok_or_else(|| self.unclear(label))?;
-            return Ok(Meaning { object: self.known(object)?, what: Some(what) });
+            return Ok(Meaning { object: self.known(&object)?, what: Some(what) });
         }
         if !self.has(label) {
             return Err(self.unclear(label));
         }
-        let what = attribute(WHAT).map(|code| What::from_code(code).ok_or_else(|| unclear_what(code))).transpose()?;
+        let what = attribute(WHAT).map(|code| What::from_code(&code).ok_or_else(|| unclear_what(&code))).transpose()?;
         Ok(Meaning { object: label.clone(), what })
     }
 
@@ -167,6 +173,20 @@ mod tests {
         assert_eq!(meaning("red bowl", &[("colour", "red")]), red(None));
         assert_eq!(meaning("Big", &[]), red(Some("rim")));
         assert_eq!(meaning("rim", &[("what", "rim")]), Ok(("rim".to_owned(), Some("rim"))), "an object of that name");
+    }
+
+    #[test]
+    fn a_name_in_either_unicode_form() {
+        let names = Names::new(
+            &["gr\u{fc}n".to_owned()],
+            BTreeMap::from([("mu\u{308}".to_owned(), "gru\u{308}n/rim".to_owned())]),
+        );
+        for label in ["gru\u{308}n/rim", "m\u{fc}", "gr\u{fc}n/rim"] {
+            let drawn = Drawn::Unusable(String::new());
+            let annotation =
+                Annotation { place: String::new(), label: label.to_owned(), attributes: BTreeMap::new(), drawn };
+            assert_eq!(names.meaning(&annotation).unwrap().object, "gr\u{fc}n");
+        }
     }
 
     #[test]

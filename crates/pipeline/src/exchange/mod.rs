@@ -16,6 +16,7 @@ mod import;
 mod label;
 mod named;
 mod pictures;
+mod target;
 
 use std::path::Path;
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use ingest::card::{Card, Patterns};
+use ingest::nfc;
 
 use crate::session::Prepared;
 use crate::study::{SessionDir, Study, stem_of};
@@ -64,7 +65,7 @@ impl<'a> Pictures<'a> {
     /// # Errors
     /// A text, where there is none, or several.
     pub fn find(&self, name: &str) -> Result<&Picture, String> {
-        let name = name.replace('\\', "/");
+        let name = nfc(name.replace('\\', "/"));
         let mut parts: Vec<&str> = name.split('/').filter(|part| !matches!(*part, "" | ".")).collect();
         let of_name = self.of_name(parts.pop().unwrap_or_default());
         let named: Vec<usize> = (0..self.sessions.len()).filter(|at| parts.contains(&self.session_name(*at))).collect();
@@ -165,8 +166,7 @@ mod tests {
     use super::*;
 
     fn place_of(cards: &[(&str, &[&str])], name: &str) -> Result<String, String> {
-        let dir = |name: &str| SessionDir { name: name.to_owned(), card: None, marks: BTreeMap::new() };
-        let dirs: Vec<SessionDir> = cards.iter().map(|(session, _)| dir(session)).collect();
+        let dirs: Vec<SessionDir> = cards.iter().map(|(session, _)| SessionDir::new(session)).collect();
         let mut pictures = Pictures::default();
         for (dir, (_, files)) in dirs.iter().zip(cards) {
             files.iter().for_each(|file| pictures.add((*file).to_owned()));
@@ -189,6 +189,13 @@ mod tests {
         ] {
             assert_eq!(place_of(cards, name).as_deref(), Ok(expected), "{name}");
         }
+    }
+
+    #[test]
+    fn a_name_in_either_unicode_form() {
+        let cards: &[(&str, &[&str])] = &[("m\u{fc}ller", &["I/k\u{e4}se.jpg"]), ("S2", &["I/k\u{e4}se.jpg"])];
+        let found = place_of(cards, "mu\u{308}ller/ka\u{308}se.jpg");
+        assert_eq!(found.as_deref(), Ok("m\u{fc}ller/I/k\u{e4}se.jpg"));
     }
 
     #[test]

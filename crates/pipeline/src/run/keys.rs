@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ingest::Fingerprint;
-use model::CameraSpec;
+use model::{CameraSpec, Problem};
 use serde::Serialize;
 
 use crate::calibration::CalibrationFile;
@@ -79,6 +79,7 @@ pub(super) struct MeasureParts<'a> {
     measure: &'a MeasureSpec,
     objects_csv: &'a str,
     names: Option<&'a BTreeMap<String, Named>>,
+    layout: &'a [Problem],
     raters: Vec<&'a str>,
     marks_source: MarksSource,
 }
@@ -142,6 +143,7 @@ impl<'a> MeasureParts<'a> {
             measure,
             objects_csv,
             names: study.names.get(&dir.name),
+            layout: &dir.problems,
             raters: if source.reads() { dir.marks.keys().map(String::as_str).collect() } else { Vec::new() },
             marks_source: *source,
         }

@@ -5,6 +5,7 @@
 
 mod auto;
 mod bench;
+mod beside;
 mod card_progress;
 mod found;
 mod frames;

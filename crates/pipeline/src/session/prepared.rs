@@ -72,6 +72,7 @@ fn session_spec(study: &Study, card: &Path) -> Result<(SessionSpec, Option<(Stri
         remedy: "correct the file (docs/study.md)".to_owned(),
     };
     let hash = sha256_of_file(&path).map_err(|error| refuse(error.to_string()))?;
-    let spec = ingest::config::read_toml(&path).map_err(|error| refuse(error.to_string()))?;
+    let mut spec: SessionSpec = ingest::config::read_toml(&path).map_err(|error| refuse(error.to_string()))?;
+    spec.participant = spec.participant.map(ingest::nfc);
     Ok((spec, Some((place, hash))))
 }

@@ -56,12 +56,13 @@ pub(super) fn card_out_of_reach(dir: &SessionDir, error: &std::io::Error) -> Pro
 
 pub(super) fn missing_card(dir: &SessionDir) -> Problem {
     let raters: Vec<_> = dir.marks.keys().map(String::as_str).collect();
+    let by = if raters.is_empty() { String::new() } else { format!(" by {}", raters.join(", ")) };
     Problem {
         severity: Severity::Loss,
         stage: Stage::Ingest,
         code: ProblemCode::MissingCard,
         place: format!("cards/{}", dir.name),
-        fact: format!("there are marks by {}, but no card", raters.join(", ")),
+        fact: format!("there are marks{by}, but no card"),
         remedy: "copy the SD card there, or remove the marks of this session".to_owned(),
     }
 }

@@ -88,7 +88,8 @@ pub(crate) fn ingest_without_state(
 /// The output of a session of which nothing could be used: its problem, and its images in the ledger.
 pub(crate) fn failed(study: &Study, dir: &SessionDir, problem: Problem) -> SessionOutput {
     let frames = ledger_of_failed(study, dir);
-    let (session, images, problems) = (dir.name.clone(), frames.len(), vec![problem]);
+    let (session, images) = (dir.name.clone(), frames.len());
+    let problems = dir.problems.iter().cloned().chain([problem]).collect();
     let status = SessionStatus { session, failed: true, images, problems, ..SessionStatus::default() };
     SessionOutput { status, frames, ..SessionOutput::default() }
 }
@@ -128,7 +129,8 @@ impl Measuring<'_> {
         let Self { study, dir, prepared, .. } = *self;
         let mut output = SessionOutput::default();
         output.status.session.clone_from(&dir.name);
-        output.status.problems = std::mem::take(&mut recording.problems);
+        output.status.problems.clone_from(&dir.problems);
+        output.status.problems.append(&mut recording.problems);
         output.inputs_sha256.extend(prepared.session_toml_sha256.clone());
         let inputs = std::mem::take(&mut recording.inputs_sha256);
         output.inputs_sha256.extend(inputs.into_iter().map(|(file, sha)| (format!("cards/{}/{file}", dir.name), sha)));

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use model::{FrameReason, ObjectMarks, Problem, ProblemCode, Severity, Stage};
 
+use super::beside::marks_beside_pictures;
 use super::frames::Session;
 use super::naming::Naming;
 use super::problems::LINK_FACT;
@@ -60,6 +61,7 @@ impl SessionMarks {
         inputs_sha256: &mut BTreeMap<String, String>,
     ) {
         let images = images_by_stem(session);
+        problems.extend(marks_beside_pictures(session, |stem| images.contains_key(stem)));
         for (rater, dir) in &session.dir.marks {
             for path in files_of(session, dir, problems) {
                 let place = session.study.relative(&path);

@@ -3,6 +3,7 @@
 mod csv_file;
 mod error;
 mod marks_source;
+mod misplaced;
 mod names;
 mod objects;
 mod printed;
@@ -19,6 +20,7 @@ use model::{Camera, CameraSpec, TableSpec};
 use crate::calibration::CalibrationFile;
 pub use error::StudyError;
 pub use marks_source::{MarksSource, UnknownMarksSource};
+pub(crate) use misplaced::{misplaced, move_command};
 pub(crate) use names::{AUTO, FOUND, NAMES_FILE, number_of_found};
 pub use names::{Named, Names};
 pub use objects::Object;
@@ -72,7 +74,7 @@ impl Study {
         let time_zone = jiff::tz::TimeZone::get(&spec.time_zone)
             .map_err(|source| StudyError::TimeZone { name: spec.time_zone.clone(), source })?;
         let objects = objects::read_objects(&dir.join("objects.csv"))?;
-        let sessions = sessions::find(dir)?;
+        let sessions = sessions::find(dir, spec.marks.source.reads())?;
         let study = Self {
             names: names::read_names(&dir.join(NAMES_FILE), &objects, &sessions)?,
             objects,

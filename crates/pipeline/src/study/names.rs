@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use ingest::nfc;
 use serde::{Deserialize, Serialize};
 
 use super::csv_file::read_rows;
@@ -52,6 +53,7 @@ pub(super) fn read_names(
         return Ok(names);
     }
     for (line, Line { session, found, object }) in read_rows::<Line>(path)? {
+        let (session, object) = (nfc(session), nfc(object));
         let refuse = |fact: String| Err(StudyError::Line { path: path.to_owned(), line, fact });
         if !sessions.iter().any(|dir| dir.name == session) {
             return refuse(format!("session '{session}' is not in the study (a folder of cards/)"));
@@ -85,7 +87,7 @@ mod tests {
         let container = Container { kind: Kind::Plate, shape: Shape::Circle, rim_height_mm: None, wall: None };
         let object = Object { container, truth_mm: BTreeMap::new() };
         let objects = BTreeMap::from([("dinner plate".to_owned(), object)]);
-        let session = |name: &str| SessionDir { name: name.to_owned(), card: None, marks: BTreeMap::new() };
+        let session = SessionDir::new;
         read_names(&path, &objects, &[session("S1"), session("S2")])
     }
 
@@ -113,6 +115,18 @@ mod tests {
             assert!(error.starts_with("line 3:") && error.contains(expected), "{error}");
             assert!(error.ends_with(NAMES_FILE), "{error}");
         }
+    }
+
+    #[test]
+    fn a_session_is_named_in_either_unicode_form() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(NAMES_FILE);
+        std::fs::write(&path, "session,found,object\nmu\u{308}ller,auto-1,gru\u{308}n\n").unwrap();
+        let container = Container { kind: Kind::Plate, shape: Shape::Circle, rim_height_mm: None, wall: None };
+        let object = Object { container, truth_mm: BTreeMap::new() };
+        let objects = BTreeMap::from([("gr\u{fc}n".to_owned(), object)]);
+        let names = read_names(&path, &objects, &[SessionDir::new("m\u{fc}ller")]).unwrap();
+        assert_eq!(names["m\u{fc}ller"]["auto-1"].object, "gr\u{fc}n");
     }
 
     #[test]

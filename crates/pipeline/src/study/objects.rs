@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use ingest::nfc;
 use model::{Container, Kind, Quantity, Shape, Wall};
 use serde::Deserialize;
 
@@ -41,7 +42,8 @@ struct Line {
 /// The objects of objects.csv, by name.
 pub(super) fn read_objects(path: &Path) -> Result<BTreeMap<String, Object>, StudyError> {
     let mut objects = BTreeMap::new();
-    for (line_number, line) in read_rows::<Line>(path)? {
+    for (line_number, mut line) in read_rows::<Line>(path)? {
+        line.object = nfc(line.object);
         let refuse = |fact: String| StudyError::Line { path: path.to_owned(), line: line_number, fact };
         if line.object.is_empty() || line.object.contains(|c: char| c == '/' || c.is_control()) {
             return Err(refuse(format!(

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use ingest::nfc;
 use model::{PrintedRow, PrintedSummary, PrintedTable, TableSpec};
 use serde::Deserialize;
 
@@ -46,7 +47,7 @@ pub(super) fn resolve(entry: &TableEntry, study_dir: &Path) -> Result<TableSpec,
         quantities: entry.quantities.clone(),
         method: entry.method,
         selection: entry.selection,
-        objects: entry.objects.clone(),
+        objects: entry.objects.iter().map(nfc).collect(),
         kinds: entry.kinds.clone(),
         printed,
         notes: entry.notes.clone(),
@@ -59,7 +60,11 @@ fn read_printed(files: &PrintedFiles, study_dir: &Path) -> Result<PrintedTable, 
     let summaries = match &files.summaries {
         Some(file) => read_rows::<SummaryLine>(&study_dir.join(file))?
             .into_iter()
-            .map(|(_, line)| PrintedSummary { object: line.object, mean_pct: line.mean_pct, sd_pct: line.sd_pct })
+            .map(|(_, line)| PrintedSummary {
+                object: line.object.map(nfc),
+                mean_pct: line.mean_pct,
+                sd_pct: line.sd_pct,
+            })
             .collect(),
         None => Vec::new(),
     };
@@ -69,10 +74,10 @@ fn read_printed(files: &PrintedFiles, study_dir: &Path) -> Result<PrintedTable, 
 fn printed_row(line: RowLine) -> PrintedRow {
     let mm = |cm: f64| cm * 10.0;
     PrintedRow {
-        object: line.object,
+        object: nfc(line.object),
         setup_height_mm: line.height_cm.map(mm),
         setup_pitch_deg: line.pitch_deg,
-        rater: line.rater,
+        rater: line.rater.map(nfc),
         predicted_mm: line.predicted_cm.map(mm),
         truth_mm: line.original_cm.map(mm),
         error_pct: line.error_pct,

@@ -3,9 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use ingest::card::{exact_name_text, name_text};
+use ingest::{nfc, spelled_out};
+use model::{Problem, ProblemCode, Severity, Stage};
 use serde::{Deserialize, Serialize};
 
 use super::StudyError;
+use super::misplaced::{self, is_wrong_way_round};
 
 /// session.toml: the settings of one session. Unknown keys are refused.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -34,15 +38,23 @@ pub struct SessionDir {
     pub card: Option<PathBuf>,
     /// The folders of marks, by rater.
     pub marks: BTreeMap<String, PathBuf>,
+    /// The problems of how its folders and files are laid out in the study.
+    pub problems: Vec<Problem>,
 }
 
 impl SessionDir {
+    /// A session of which nothing is known but its name.
+    #[must_use]
+    pub fn new(name: &str) -> Self {
+        Self { name: name.to_owned(), card: None, marks: BTreeMap::new(), problems: Vec::new() }
+    }
+
     /// The files of marks of all raters by name, in a defined order. A folder that cannot be listed stands for its files.
     #[must_use]
     pub fn marks_files(&self) -> Vec<(String, PathBuf)> {
         let of_rater = |(rater, dir): (&String, &PathBuf)| {
             let files = marks_in(dir).unwrap_or_else(|_| vec![dir.clone()]);
-            let name = |path: &PathBuf| ingest::card::name_text(path.file_name().unwrap_or_default());
+            let name = |path: &PathBuf| exact_name_text(path.file_name().unwrap_or_default());
             files.into_iter().map(|path| (format!("{rater}/{}", name(&path)), path)).collect::<Vec<_>>()
         };
         self.marks.iter().flat_map(of_rater).collect()
@@ -57,49 +69,100 @@ pub(crate) fn marks_in(dir: &Path) -> std::io::Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-/// The name of a file without its folders and its extension. Marks and their image have the same one.
+/// The name of a file without its folders and its extension, in the form in which names are compared. Marks and their image have
+/// the same one.
 pub(crate) fn stem_of(file: &str) -> String {
-    Path::new(file).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default()
+    Path::new(file).file_stem().map(|stem| nfc(stem.to_string_lossy())).unwrap_or_default()
 }
 
-/// The sessions of a study, in the order of their names.
-pub(super) fn find(study_dir: &Path) -> Result<Vec<SessionDir>, StudyError> {
+/// The sessions of a study, in the order of their names. `reads_marks` says whether files of marks are read, so that those in a wrong
+/// place are told.
+pub(super) fn find(study_dir: &Path, reads_marks: bool) -> Result<Vec<SessionDir>, StudyError> {
     let mut sessions: BTreeMap<String, SessionDir> = BTreeMap::new();
-    let mut session = |name: &str, fill: &dyn Fn(&mut SessionDir)| {
-        let empty = || SessionDir { name: name.to_owned(), card: None, marks: BTreeMap::new() };
-        fill(sessions.entry(name.to_owned()).or_insert_with(empty));
-    };
-    let cards = study_dir.join("cards");
-    for (name, path) in folders(&cards)? {
-        session(&name, &|s| s.card = Some(path.clone()));
+    let cards_dir = study_dir.join("cards");
+    let cards = folders(&cards_dir)?;
+    for card in &cards {
+        let alike: Vec<&Folder> = cards.iter().filter(|other| other.name == card.name).collect();
+        let name = if alike.len() == 1 { &card.name } else { &card.exact };
+        let session = sessions.entry(name.clone()).or_insert_with(|| SessionDir::new(name));
+        session.card = Some(card.path.clone());
+        if alike.len() > 1 {
+            let spelled: Vec<String> = alike.iter().map(|folder| spelled_out(&folder.exact)).collect();
+            let fact =
+                "names of sessions are the same but for their Unicode form, so marks may be taken for the wrong one";
+            session.problems.push(folders_alike(format!("cards/{name}"), format!("{fact}: {}", spelled.join(", "))));
+        }
     }
-    let marks = study_dir.join("marks");
-    if marks.is_dir() {
-        for (rater, rater_dir) in folders(&marks)? {
-            for (name, path) in folders(&rater_dir)? {
-                session(&name, &|s| {
-                    s.marks.insert(rater.clone(), path.clone());
-                });
+    let marks_dir = study_dir.join("marks");
+    if marks_dir.is_dir() {
+        for rater in folders(&marks_dir)? {
+            for marks in folders(&rater.path)? {
+                if is_wrong_way_round(&rater.name, &marks.name, |name| is_card(&sessions, name)) {
+                    continue; // it is told below
+                }
+                // Of sessions that look alike each has its exact name.
+                let name = if sessions.contains_key(&marks.exact) { &marks.exact } else { &marks.name };
+                if !sessions.contains_key(name) && marks_in(&marks.path).is_ok_and(|files| files.is_empty()) {
+                    continue; // neither a card nor marks
+                }
+                let session = sessions.entry(name.clone()).or_insert_with(|| SessionDir::new(name));
+                add_marks(session, &rater.name, marks.path, study_dir);
             }
         }
     }
-    if sessions.is_empty() { Err(StudyError::NoSessions(cards)) } else { Ok(sessions.into_values().collect()) }
+    if reads_marks {
+        misplaced::report(study_dir, &mut sessions);
+    }
+    if sessions.is_empty() { Err(StudyError::NoSessions(cards_dir)) } else { Ok(sessions.into_values().collect()) }
 }
 
-/// The folders inside `dir`, without hidden ones. Odd bytes of names are written as those of files on cards are, so that no
-/// two sessions get the same name.
-fn folders(dir: &Path) -> Result<Vec<(String, PathBuf)>, StudyError> {
+fn is_card(sessions: &BTreeMap<String, SessionDir>, name: &str) -> bool {
+    sessions.get(name).is_some_and(|session| session.card.is_some())
+}
+
+/// Adds the folder of a rater's marks. Where the rater has one already, whose name is another form of the same, the first counts.
+fn add_marks(session: &mut SessionDir, rater: &str, folder: PathBuf, study_dir: &Path) {
+    if let Some(first) = session.marks.get(rater) {
+        let spelled = |path: &Path| spelled_out(&path.strip_prefix(study_dir).unwrap_or(path).to_string_lossy());
+        let fact = format!(
+            "two folders of marks have the same name but for its Unicode form; {} is read, {} is not",
+            spelled(first),
+            spelled(&folder)
+        );
+        session.problems.push(folders_alike(format!("marks/{rater}/{}", session.name), fact));
+        return;
+    }
+    session.marks.insert(rater.to_owned(), folder);
+}
+
+fn folders_alike(place: String, fact: String) -> Problem {
+    let remedy = "rename one of them, or move the files of both into one".to_owned();
+    Problem { severity: Severity::Loss, stage: Stage::Study, code: ProblemCode::FoldersAlike, place, fact, remedy }
+}
+
+/// A folder of a study.
+struct Folder {
+    /// The name, in the form in which names are compared.
+    name: String,
+    /// The name in its own form.
+    exact: String,
+    path: PathBuf,
+}
+
+/// The folders inside `dir`, without hidden ones, in the order of their names. Odd bytes of names are written as those of files on
+/// cards are.
+fn folders(dir: &Path) -> Result<Vec<Folder>, StudyError> {
     let refuse = |source| StudyError::List { path: dir.to_owned(), source };
-    let mut named = Vec::new();
+    let mut folders = Vec::new();
     for entry in std::fs::read_dir(dir).map_err(refuse)? {
         let entry = entry.map_err(refuse)?;
-        let name = ingest::card::name_text(&entry.file_name());
+        let (name, exact) = (name_text(&entry.file_name()), exact_name_text(&entry.file_name()));
         // Links are followed here, so that a linked card is not passed over, but becomes a problem, when it lies outside the
         // study, or leads nowhere because a disk is not connected.
         if std::fs::metadata(entry.path()).map_or(true, |metadata| metadata.is_dir()) && !name.starts_with('.') {
-            named.push((name, entry.path()));
+            folders.push(Folder { name, exact, path: entry.path() });
         }
     }
-    named.sort();
-    Ok(named)
+    folders.sort_by(|a, b| (&a.name, &a.exact).cmp(&(&b.name, &b.exact)));
+    Ok(folders)
 }

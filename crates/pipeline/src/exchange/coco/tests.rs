@@ -69,10 +69,108 @@ fn what_is_no_coco_file_is_told() {
     let error = |text: &str| parse(text, Path::new("c.json")).unwrap_err().to_string();
     assert!(error(r#"{"shapes": [], "imagePath": "a.jpg"}"#).contains("a LabelMe file, which needs no import"));
     assert!(error(r#"{"images": []}"#).contains("annotations or categories are missing"));
-    assert!(error(&file(r#"{"image_id": NaN}"#)).contains("line 8 column"));
-    assert!(error(&file(r#"{"image_id": 3, "keypoints": [1e999]}"#)).contains("out of range"));
-    let twice = r#"{"images": [{"id": 1}, {"id": 1}], "annotations": [], "categories": []}"#;
-    assert!(error(twice).contains("image id 1 stands there twice"));
+    assert!(error(&file(r#"{"image_id": 3,,}"#)).contains("line 8 column"));
+}
+
+/// The ids of one image, category and annotation, as numbers, floats and texts: whichever, they are one id.
+#[test]
+fn an_id_is_the_same_as_number_float_and_text() {
+    for image in ["7", "7.0", "\"7\"", "\"7.0\"", "70e-1"] {
+        for other in ["7", "7.0", "\"7\"", "\" 7 \""] {
+            let text = format!(
+                r#"{{"images": [{{"id": {image}, "file_name": "a.jpg", "width": "64", "height": 48.0}}, {{"id": "x7"}}],
+                    "categories": [{{"id": {other}, "name": "bowl/rim"}}],
+                    "annotations": [{{"id": {other}, "image_id": {other}, "category_id": {image},
+                                      "segmentation": [[1, 2, 3, 4, 5, 6]]}}]}}"#
+            );
+            let foreign = parse(&text, Path::new("c.json")).unwrap();
+            let [image, _] = &foreign.images[..] else { panic!("{text}") };
+            assert_eq!(
+                (image.size_px, image.fault.as_ref(), foreign.refused.len()),
+                (Some([64, 48]), None, 0),
+                "{text}"
+            );
+            let [annotation] = &image.annotations[..] else { panic!("{text}: {:?}", foreign.refused) };
+            assert_eq!((annotation.place.as_str(), annotation.label.as_str()), ("annotation id 7", "bowl/rim"));
+            assert!(matches!(annotation.drawn, Drawn::Points { .. }), "{text}");
+        }
+    }
+}
+
+/// Ids beyond the whole numbers that floats hold exactly are compared digit by digit.
+#[test]
+fn long_ids_are_not_rounded_into_each_other() {
+    let text = r#"{"images": [{"id": 20240101123456788, "file_name": "a"}, {"id": 20240101123456789, "file_name": "b"}],
+                   "categories": [], "annotations": [{"id": 1, "image_id": "20240101123456789"}]}"#;
+    let foreign = parse(text, Path::new("c.json")).unwrap();
+    assert_eq!(foreign.images.iter().map(|image| image.annotations.len()).collect::<Vec<_>>(), [0, 1]);
+}
+
+/// One odd value of each kind beside a good annotation, which is kept.
+#[test]
+fn an_odd_value_spoils_its_annotation_and_not_the_file() {
+    let good = r#"{"id": 1, "image_id": 3, "category_id": 1, "segmentation": [[1, 2, 3, 4, 5, 6]], "area": NaN}"#;
+    for (odd, expected) in [
+        (r#"{"id": 9, "image_id": NaN, "category_id": 1}"#, "image_id is missing"),
+        (r#"{"id": 9, "image_id": {}, "category_id": 1}"#, "image_id: expected a number or a text"),
+        (r#"{"id": 9, "image_id": true}"#, "image_id: expected a number or a text"),
+        (r#"{"id": 9, "image_id": 3.5}"#, "image_id 3.5 is not among the images"),
+        (r#"{"id": 9, "image_id": 3, "category_id": []}"#, "category_id: expected"),
+        (r#"{"id": 9, "image_id": 3, "category_id": null}"#, "category_id is missing"),
+        (r#"{"id": 9, "image_id": 3, "category_id": 2, "keypoints": [1e999]}"#, "out of range"),
+        (r#"{"id": 9, "image_id": 3, "category_id": 1, "segmentation": [[1, 2, 3, 4, 5, NaN]]}"#, "expected polygons"),
+        (r#"{"id": 9, "image_id": 3, "category_id": 1, "segmentation": [[1, 2, 3, 4, 5, 1e999]]}"#, "out of range"),
+        (r#"{"id": 9, "image_id": 3, "category_id": 1, "iscrowd": "some"}"#, "iscrowd: expected 0 or 1"),
+        (r#"{"id": [9], "image_id": 4, "category_id": 1}"#, "image_id 4 is not among the images"),
+        (r#"{"id": 9, "id": 9}"#, "duplicate field"),
+        ("null", "cannot be read"),
+        ("17", "cannot be read"),
+    ] {
+        let foreign = parse(&file(&format!("{odd}, {good}")), Path::new("c.json")).unwrap();
+        let annotations = &foreign.images[0].annotations;
+        let kept = annotations.iter().filter(|annotation| matches!(annotation.drawn, Drawn::Points { .. }));
+        assert_eq!(kept.count(), 1, "{odd}");
+        let unusable = annotations.iter().filter_map(|annotation| match &annotation.drawn {
+            Drawn::Unusable(fact) => Some(fact),
+            _ => None,
+        });
+        let facts: Vec<&String> = foreign.refused.iter().map(|refused| &refused.fact).chain(unusable).collect();
+        assert!(matches!(facts[..], [fact] if fact.contains(expected)), "{odd}: {facts:?}");
+    }
+}
+
+/// The same for images and categories: what refers to them is told, and the rest is used.
+#[test]
+fn odd_images_and_categories_spoil_what_refers_to_them() {
+    let text = r#"{"images": [{"id": 1, "file_name": "a", "width": "wide", "height": 48}, {"file_name": "b"}, null,
+                              {"id": 2, "file_name": "c", "width": null}, {"id": 2, "file_name": "c"},
+                              {"id": 5, "file_name": "e"}, {"id": "5", "file_name": "f"}, {"id": 5.0, "file_name": "g"}],
+                   "categories": [{"id": 1, "name": "bowl/rim"}, {"id": 1.0, "name": "bowl/rim"}, {"id": 2},
+                                  {"id": 3, "name": "bowl", "keypoints": [7]}],
+                   "annotations": [{"id": 11, "image_id": 2, "category_id": 1, "segmentation": [[1, 2, 3, 4, 5, 6]]},
+                                   {"id": 12, "image_id": 2, "category_id": 2, "segmentation": [[1, 2, 3, 4, 5, 6]]},
+                                   {"id": 13, "image_id": 2, "category_id": 3, "keypoints": [1, 2, 2]},
+                                   {"id": 14, "image_id": "5", "category_id": 1},
+                                   {"id": 15, "image_id": "5.0", "category_id": 1}]}"#;
+    let foreign = parse(text, Path::new("c.json")).unwrap();
+    assert_eq!(foreign.images[0].fault.as_deref(), Some("width: expected a whole number of pixels, got 'wide'"));
+    let image = |name: &str| foreign.images.iter().find(|image| image.name == name).unwrap();
+    let drawn: Vec<&Drawn> = image("c").annotations.iter().map(|annotation| &annotation.drawn).collect();
+    assert!(matches!(drawn[0], Drawn::Points { .. }), "an image and a category that stand there twice are one");
+    assert!(matches!(drawn[1], Drawn::Unusable(fact) if fact.contains("category_id 2 is not among")));
+    assert!(matches!(drawn[2], Drawn::Unusable(fact) if fact.contains("keypoints of category id 3")));
+    assert_eq!(image("f").annotations.len(), 1, "of several, the one that is written in the same way");
+    let facts: Vec<String> =
+        foreign.refused.iter().map(|refused| format!("{}: {}", refused.place, refused.fact)).collect();
+    for expected in [
+        "image 2 of the file: it has no id",
+        "image 3 of the file: cannot be read",
+        "category 3 of the file: category id 2: it has no name",
+        "annotation id 15: image_id 5 stands for 3 of the images",
+    ] {
+        assert!(facts.iter().any(|fact| fact.contains(expected)), "{expected}: {facts:?}");
+    }
+    assert_eq!(facts.len(), 4, "{facts:?}");
 }
 
 #[test]

@@ -9,6 +9,7 @@ use std::path::Path;
 
 use super::ExchangeError;
 use super::foreign::{Foreign, ForeignImage, Refused, short};
+use crate::json;
 use xml::{Element, Reader};
 
 const EXPORT: &str = "export the task from CVAT as 'CVAT for images 1.1'";
@@ -64,12 +65,12 @@ fn refused(start: &xml::Start<'_>) -> Refused {
 
 fn image(reader: &mut Reader<'_>, start: &xml::Start<'_>) -> Result<ForeignImage, ExchangeError> {
     let mut attributes = start.attributes(reader)?;
-    let side = |text: Option<String>| text.and_then(|text| text.trim().parse::<u32>().ok());
-    let (width, height) = (side(attributes.remove("width")), side(attributes.remove("height")));
+    let size_px = size_px(attributes.remove("width"), attributes.remove("height"));
     let mut image = ForeignImage {
         place: start.place(),
         name: attributes.remove("name").unwrap_or_default(),
-        size_px: width.zip(height).map(|(width, height)| [width, height]),
+        size_px: size_px.clone().unwrap_or_default(),
+        fault: size_px.err(),
         annotations: Vec::new(),
     };
     loop {
@@ -79,6 +80,16 @@ fn image(reader: &mut Reader<'_>, start: &xml::Start<'_>) -> Result<ForeignImage
             Element::End => return Ok(image),
         }
     }
+}
+
+/// The width and height of an image; none where one of them is missing.
+fn size_px(width: Option<String>, height: Option<String>) -> Result<Option<[u32; 2]>, String> {
+    let side = |name: &str, text: Option<String>| {
+        let Some(text) = text else { return Ok(None) };
+        let whole = json::whole_number(&text).and_then(|digits| digits.parse::<u32>().ok());
+        whole.ok_or_else(|| format!("{name}: expected a whole number of pixels, got '{}'", short(&text))).map(Some)
+    };
+    Ok(side("width", width)?.zip(side("height", height)?).map(|(width, height)| [width, height]))
 }
 
 #[cfg(test)]

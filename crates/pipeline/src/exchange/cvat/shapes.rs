@@ -79,7 +79,7 @@ fn ellipse(own: &Attributes) -> Result<Ellipse, String> {
 }
 
 fn is_set(own: &Attributes, key: &str) -> bool {
-    own.get(key).is_some_and(|value| value != "0")
+    own.get(key).is_some_and(|value| !matches!(value.trim().to_ascii_lowercase().as_str(), "0" | "false" | ""))
 }
 
 /// Reads a point of a skeleton.

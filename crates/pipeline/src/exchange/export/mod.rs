@@ -6,6 +6,7 @@ mod cvat;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use ingest::nfc;
 use model::{Mark, ObjectMarks};
 
 use super::ExchangeError;
@@ -79,7 +80,7 @@ pub fn export(study: &Study, options: &ExportOptions) -> Result<Exported, Exchan
     let pictures = Pictures::list(study, None, &options.program);
     let (mut exported, mut images) = (Exported::default(), Vec::new());
     for (number, session) in pictures.sessions.iter().enumerate() {
-        if let Some(folder) = session.dir.marks.get(&options.rater) {
+        if let Some(folder) = session.dir.marks.get(&nfc(&options.rater)) {
             images.extend(images_of(study, &pictures, number, folder, &mut exported));
         }
     }
