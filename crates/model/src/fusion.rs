@@ -221,7 +221,8 @@ pub fn parts_of_sum(shares: &[Share], weights: &[f64]) -> Vec<Part> {
 }
 
 /// The uncertainty of a size with these parts.
-pub(crate) fn combined_sigma(parts: &[Part]) -> SizeSigma {
+#[must_use]
+pub fn combined_sigma(parts: &[Part]) -> SizeSigma {
     let by_source: PerSource = parts.iter().map(|part| part.sensitivity.by_source).sum();
     let covariance = parts.first().map(|part| part.inputs.common()).unwrap_or_default();
     let noise = noise_by_picture(parts).values().map(|(by, variance)| by.component_mul(by).component_mul(variance)).sum();

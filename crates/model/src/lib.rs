@@ -67,7 +67,7 @@ pub use container::{Container, Kind, Method, Quantity, Shape, Wall};
 pub use doubt::Doubt;
 pub use flow::{Flow, FlowStep, ImageCounts, StudyFlow};
 pub use frame_log::{FrameFlag, FrameReason};
-pub use fusion::{Consistency, Fused, Part, Share, Verdict, fuse, parts_of_sum};
+pub use fusion::{Consistency, Fused, Part, Share, Verdict, combined_sigma, fuse, parts_of_sum};
 pub use gallery::{GalleryMark, GalleryPicture, GallerySink, PictureView};
 pub use joint::{JointError, JointHeight, Sight, Sights, joint_height, sights};
 pub use lens::{LensError, LensModel};
