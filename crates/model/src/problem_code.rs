@@ -86,6 +86,7 @@ coded_enum! {
         BaseUnderCamera = "base_under_camera": "the base lies under the camera, where a height cannot be told",
         NoLength = "no_length": "two marked ends are the same point",
         NotFourCorners = "not_four_corners": "a rectangle's outline does not have four corners",
+        SizesDisagree = "sizes_disagree": "the sizes of one thing by several images or raters differ by more than their uncertainties allow",
         BadMcap = "bad_mcap": "the recording in the work folder is not what was written there",
         McapNotWritten = "mcap_not_written": "a recording could not be written to the work folder",
         NoThread = "no_thread": "the system gave the program no thread",
@@ -187,6 +188,9 @@ impl ProblemCode {
             }
             Self::PictureNotSearched => "look at the picture; mark it by hand, or copy it from the card again",
             Self::MarksMisplaced => "move them to marks/RATER/SESSION by the command that is given",
+            Self::SizesDisagree => {
+                "look at the marks that `flags` names as outliers; without one, at all of them, or at [uncertainty]"
+            }
             Self::NothingToMeasure => "mark a diameter, width, length, height or the rim (docs/study.md)",
             Self::MarkOffPlane => "correct the mark, or check pitch and range of the image",
             Self::NoCircle => "mark more of the outline",

@@ -6,6 +6,7 @@ use aim_batch_model::{
     Part, Pose, Quantity, Sensitivity, Share, Sight, Sights, Source, Verdict, View, best_of, fuse, joint_height, sights,
 };
 use nalgebra::Point3;
+use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -92,6 +93,79 @@ fn intervals_cover_and_verdicts_hold() {
     let share_of = |n: u32| f64::from(n) / f64::from(runs);
     assert!((0.94..0.96).contains(&share_of(covered)), "{}", share_of(covered));
     assert!((0.005..0.017).contains(&share_of(inconsistent)), "{}", share_of(inconsistent));
+}
+
+/// A size that is `value_mm` large, with errors of pose, range and camera in proportion to it, as those of real sizes are.
+fn in_proportion(value_mm: f64, picture: usize, marks_mm_per_px: f64) -> Share {
+    let by_source = share(value_mm, picture).parts[0].sensitivity.by_source * (value_mm / 200.0);
+    Share::of_picture(value_mm, Part { sensitivity: Sensitivity { by_source, marks_mm_per_px }, inputs: INPUTS, picture }, 1.0)
+}
+
+/// Three raters see 250 to 270 mm, and one slipped. By inverse variances in mm the slip would have ten times the
+/// weight of any other, for being small: 112 mm.
+#[test]
+fn a_small_size_is_not_surer_for_being_small() {
+    let values = [262.3, 251.8, 74.6, 268.2];
+    let shares: Vec<Share> = values.iter().enumerate().map(|(i, v)| in_proportion(*v, i, 0.8)).collect();
+    let result = fuse(&shares).unwrap();
+    assert!((result.value_mm - 260.8).abs() < 1.0, "the mean of the other three: {result:?}");
+    assert_eq!((result.outliers.as_slice(), result.weights[2]), (&[2][..], 0.0));
+    assert!(result.sigma.total_mm > 7.0, "3 % are common to all");
+    let two = fuse(&[in_proportion(100.0, 0, 0.8), in_proportion(300.0, 1, 0.8)]).unwrap();
+    assert!((two.value_mm - 200.0).abs() < 10.0, "neither of two is surer: {two:?}");
+}
+
+/// Half of the difference of two sizes is the standard error of their mean.
+#[test]
+fn the_uncertainty_holds_a_disagreement_and_only_that() {
+    let apart = fused(&[200.0, 260.0]);
+    let own = (200.0_f64 * 0.03).hypot(150.0 * 0.01); // what both share, of which nothing is disagreement
+    assert_eq!(apart.consistency.unwrap().verdict, Verdict::Inconsistent);
+    assert!((apart.sigma.total_mm - 30.0_f64.hypot(own)).abs() < 0.1, "{apart:?}");
+    assert!((apart.sigma.disagreement_mm - 30.0).abs() < 0.2);
+    assert_eq!(fused(&[200.0, 202.0]).sigma.disagreement_mm, 0.0);
+}
+
+/// Sizes of one thing, each with 3 mm of error of its own, and their uncertainty by the marks, in mm per pixel.
+fn honest() -> impl Strategy<Value = Vec<(f64, f64)>> {
+    (40.0..300.0_f64, prop::collection::vec((-3.0..3.0_f64, 0.5..2.0_f64), 2..8))
+        .prop_map(|(size, errors)| errors.into_iter().map(|(error, marks)| (size + error, marks)).collect())
+}
+
+fn shares(sizes: &[(f64, f64)], factor: f64) -> Vec<Share> {
+    sizes.iter().enumerate().map(|(i, (v, marks))| in_proportion(v * factor, i, marks * factor)).collect()
+}
+
+proptest! {
+    #[test]
+    fn fused_sizes_lie_within_the_range_of_theirs(
+        sizes in prop::collection::vec((1.0..1e4_f64, 0.0..50.0_f64), 1..9)
+    ) {
+        let value_mm = fuse(&shares(&sizes, 1.0)).unwrap().value_mm;
+        let all = || sizes.iter().map(|(v, _)| *v);
+        prop_assert!(all().reduce(f64::min).unwrap() <= value_mm && value_mm <= all().reduce(f64::max).unwrap());
+    }
+
+    #[test]
+    fn fused_sizes_scale_with_theirs(
+        sizes in prop::collection::vec((1.0..1e4_f64, 0.1..50.0_f64), 1..9), factor in 0.01..100.0_f64
+    ) {
+        let [one, scaled] = [1.0, factor].map(|f| fuse(&shares(&sizes, f)).unwrap());
+        prop_assert!((scaled.value_mm / (factor * one.value_mm) - 1.0).abs() < 1e-6);
+        prop_assert!((scaled.sigma.total_mm / (factor * one.sigma.total_mm) - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn one_absurd_size_moves_the_others_by_less_than_their_uncertainty(
+        sizes in honest(), times in prop_oneof![0.001..0.4_f64, 2.5..1000.0], place in 0..8_usize
+    ) {
+        let without = fuse(&shares(&sizes, 1.0)).unwrap();
+        let mut with = sizes.clone();
+        with.insert(place.min(sizes.len()), (without.value_mm * times, 1.0));
+        let with = fuse(&shares(&with, 1.0)).unwrap();
+        let moved = (with.value_mm - without.value_mm).abs();
+        prop_assert!(moved < without.sigma.total_mm.min(with.sigma.total_mm), "{} -> {}", without.value_mm, with.value_mm);
+    }
 }
 
 fn view(pitch_deg: f64) -> View {

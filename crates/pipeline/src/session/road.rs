@@ -9,7 +9,7 @@ use super::auto::AutoMarks;
 use super::bench::bench_session;
 use super::card_progress::CardProgress;
 use super::frames::Session;
-use super::fuse::fuse;
+use super::fuse::{disagreements, fuse};
 use super::ledger::{ledger, ledger_of_failed};
 use super::marked::marked;
 use super::measurement::measure_all;
@@ -145,6 +145,7 @@ impl Measuring<'_> {
         output.shown = Shown::from_marked(&prepared.camera, &marked);
         let mut measurements = measure_all(&marked, &mut output.status.problems);
         let fused = fuse(study, &marked, &mut measurements);
+        output.status.problems.extend(disagreements(&dir.name, &fused));
         let asked = |row: &ResultRow| study.spec.measure.methods.contains(&row.method);
         let measured = measurements.into_iter().map(|measurement| measurement.row);
         output.results = measured.filter(asked).chain(fused).collect();

@@ -6,6 +6,7 @@
 //!   the measurements.
 
 mod consensus;
+mod disagreement;
 mod joint;
 #[cfg(test)]
 mod tests;
@@ -16,6 +17,8 @@ use model::{
     Doubt, ErrorStats, Fused, Level, Method, Part, Quantity, ResultRow, Share, SizeSigma, Verdict, fuse as fuse_shares, median,
     parts_of_sum,
 };
+
+pub(super) use disagreement::problems as disagreements;
 
 use super::found::fused_sigma;
 use super::marked::Marked;
