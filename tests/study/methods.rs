@@ -12,7 +12,7 @@ use crate::support::{
 pub const OBJECTS: &str =
     "object,kind,shape,true_diameter_mm,true_height_mm\nbowl,bowl,circle,160,60\nplate,plate,circle,200,\n";
 
-fn view(pitch_deg: f64, roll_deg: f64, range_mm: f64) -> View {
+pub fn view(pitch_deg: f64, roll_deg: f64, range_mm: f64) -> View {
     let camera = Camera::new([64, 48], [60.0, 60.0], [32.0, 24.0], 0.0, LensModel::None).unwrap();
     View::new(camera, Pose::new(pitch_deg.to_radians(), roll_deg.to_radians(), range_mm).unwrap())
 }

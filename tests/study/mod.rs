@@ -6,6 +6,7 @@ mod annotate;
 mod auto;
 mod figures;
 mod flow;
+mod four_corners;
 mod gallery;
 mod large;
 pub mod methods;

@@ -248,6 +248,13 @@ fn what_cannot_be_measured_says_why() {
         refused(Kind::Plate, Shape::Square, vec![rim(circle_px(&view, 5, 0.0))]),
         MeasureError::NotFourCorners { shape: Shape::Square, points: 5 }
     );
+    // A square of 100 mm whose corners are marked in the order of a bow tie.
+    let bow_tie =
+        [[0.0, 300.0], [100.0, 400.0], [100.0, 300.0], [0.0, 400.0]].map(|[x, y]| seen(&view, x, y, 0.0)).to_vec();
+    assert_eq!(
+        refused(Kind::Plate, Shape::Square, vec![rim(bow_tie)]),
+        MeasureError::CornersNotInOrder { shape: Shape::Square }
+    );
     let in_the_sky = line(Quantity::Diameter, Point2::new(1200.0, -4000.0), Point2::new(1300.0, 900.0));
     assert!(matches!(plate(vec![in_the_sky]), MeasureError::View(ViewError::AboveHorizon { .. })));
 }

@@ -148,6 +148,37 @@ fn an_image_that_may_be_several_is_not_guessed() {
     assert_exit(&import(study.path(), &file, "b", &["--session", "s3"]), 2);
 }
 
+/// Names as Label Studio and Roboflow export them lead to the same sizes, and a note says so; one that fits two pictures is refused.
+#[test]
+fn names_that_tools_changed_are_found() {
+    let (study, mut pictures) = study();
+    for (number, picture) in pictures.iter_mut().enumerate() {
+        let (session, file) = picture.name.split_once("/images/").unwrap();
+        let stem = file.strip_suffix(".jpg").unwrap().replace('.', "-");
+        picture.name = match number % 2 {
+            0 => format!("{session}/0a1b2c3d-{file}"),
+            _ => format!("{session}/{stem}_jpg.rf.0123456789abcdef0123456789abcdef.jpg"),
+        };
+    }
+    let file = study.write("a.json", tools::coco(&pictures, SIZE_PX).to_string());
+    let output = import(study.path(), &file, "b", &[]);
+    assert_exit(&output, 0);
+    let said = stderr(&output);
+    for tool in ["Label Studio", "Roboflow"] {
+        assert!(said.contains(tool) && said.contains("2 images, first "), "{said}");
+    }
+    let out = study.path().join("out/r.parquet");
+    assert_exit(&run(["run", study.path().to_str().unwrap(), "--out", out.to_str().unwrap()]), 0);
+    let results = Results::read(&out).unwrap();
+    assert_eq!(sizes(&results, "A"), sizes(&results, "b"));
+    let name = format!("0a1b2c3d-{}.jpg", StudyFolder::image_stem(0));
+    let both = [Picture { name, marks: pictures[0].marks.clone() }];
+    let file = study.write("b.json", tools::coco(&both, SIZE_PX).to_string());
+    let output = import(study.path(), &file, "c", &[]);
+    assert_exit(&output, 1);
+    assert!(stderr(&output).contains("any of: s1/images/") && stderr(&output).contains(", s2/images/"));
+}
+
 #[test]
 fn a_picture_of_another_size_is_refused() {
     let (study, pictures) = study();

@@ -58,6 +58,12 @@ pub enum MeasureError {
         /// The number of points of the outline.
         points: usize,
     },
+    /// The four corners of a square or rectangle do not follow each other around it, so that its diagonals would be taken for sides.
+    #[error("rim outline of a {shape}: its 4 corners are not in order around it, or one lies within the others")]
+    CornersNotInOrder {
+        /// The shape of the object.
+        shape: Shape,
+    },
 }
 
 impl MeasureError {
@@ -72,7 +78,7 @@ impl MeasureError {
             Self::RimAboveCamera { .. } => ProblemCode::RimAboveCamera,
             Self::BaseUnderCamera => ProblemCode::BaseUnderCamera,
             Self::NoLength => ProblemCode::NoLength,
-            Self::NotFourCorners { .. } => ProblemCode::NotFourCorners,
+            Self::NotFourCorners { .. } | Self::CornersNotInOrder { .. } => ProblemCode::NotFourCorners,
         }
     }
 }

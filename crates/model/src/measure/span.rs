@@ -60,7 +60,11 @@ impl<'a> Span<'a> {
                     return Err(MeasureError::NotFourCorners { shape: *shape, points: corners.len() });
                 };
                 let corners = [place(a)?, place(b)?, place(c)?, place(d)?];
-                let sides = sides(*shape, quantity, &corners.map(|c| c.point_mm));
+                let corners_mm = [0, 1, 2, 3].map(|i: usize| corners[i].point_mm);
+                if !are_in_order(&corners_mm) {
+                    return Err(MeasureError::CornersNotInOrder { shape: *shape });
+                }
+                let sides = sides(*shape, quantity, &corners_mm);
                 if sides.length_mm <= 0.0 {
                     return Err(MeasureError::NoLength);
                 }
@@ -69,6 +73,16 @@ impl<'a> Span<'a> {
             }
         }
     }
+}
+
+/// Whether the way around the corners turns to one side throughout: else two sides cross, and are diagonals.
+fn are_in_order(corners: &[Point2<f64>; 4]) -> bool {
+    let turn = |at: usize| {
+        let [before, corner, after] = [0, 1, 2].map(|step| corners[(at + step) % 4]);
+        (corner - before).perp(&(after - corner))
+    };
+    let turns = [0, 1, 2, 3].map(turn);
+    turns.iter().all(|turn| *turn >= 0.0) || turns.iter().all(|turn| *turn <= 0.0)
 }
 
 /// All four sides of a square; of a rectangle the shorter pair for its width, and the longer pair for its length.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ingest::nfc;
 
+use super::changed_names::Change;
 use super::convert::{ConvertedMark, marks_of};
 use super::foreign::{ForeignImage, Refused, short};
 use super::label::Names;
@@ -73,8 +74,13 @@ pub fn import(study: &Study, file: &Path, options: &ImportOptions) -> Result<Imp
     };
     let mut imported = Imported { refused: foreign.refused, ..Imported::default() };
     let mut marked: BTreeMap<&Picture, &str> = BTreeMap::new();
+    let mut changed: BTreeMap<Change, Vec<(&ForeignImage, &Picture)>> = BTreeMap::new();
     for image in &foreign.images {
-        match import.pictures.find(&image.name) {
+        let found = import.pictures.find(&image.name);
+        if let (Ok((picture, Some(change))), false) = (&found, image.annotations.is_empty()) {
+            changed.entry(*change).or_default().push((image, *picture));
+        }
+        match found.map(|(picture, _)| picture) {
             Ok(picture) => match marked.insert(picture, &image.place) {
                 None => import.image(image, picture, &mut imported)?,
                 Some(_) if image.annotations.is_empty() => {}
@@ -90,6 +96,7 @@ pub fn import(study: &Study, file: &Path, options: &ImportOptions) -> Result<Imp
             Err(fact) => imported.refused.push(at_image(image, fact)),
         }
     }
+    imported.notes.extend(changed.iter().map(|(change, images)| import.changed_note(*change, images)));
     Ok(imported)
 }
 
@@ -140,6 +147,15 @@ struct Placed {
 }
 
 impl Import<'_> {
+    /// The note on images that were found although a tool had changed their names.
+    fn changed_note(&self, change: Change, images: &[(&ForeignImage, &Picture)]) -> Refused {
+        let first = images
+            .first()
+            .map(|(image, picture)| format!("'{}' is taken as {}", short(&image.name), self.pictures.place(picture)));
+        let count = if images.len() == 1 { "1 image".to_owned() } else { format!("{} images", images.len()) };
+        Refused { place: format!("{count}, first {}", first.unwrap_or_default()), fact: change.words().to_owned() }
+    }
+
     fn image(&self, image: &ForeignImage, picture: &Picture, imported: &mut Imported) -> Result<(), ExchangeError> {
         let Some(session) = self.pictures.sessions.get(picture.session) else { return Ok(()) };
         let prepared = match &session.prepared {

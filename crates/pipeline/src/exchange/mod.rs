@@ -6,6 +6,7 @@
 //! LabelMe, CVAT and the tools that write COCO all put (0, 0) at the corner of the first pixel, so coordinates are carried
 //! over unchanged.
 
+mod changed_names;
 mod coco;
 mod convert;
 mod cvat;

@@ -1,10 +1,12 @@
 //! Decides which picture of the study an image of another tool is.
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 use ingest::card::{Card, Patterns};
 use ingest::nfc;
 
+use super::changed_names::{Change, all_words, decoded, names_before, words_of};
 use crate::session::Prepared;
 use crate::study::{SessionDir, Study, stem_of};
 
@@ -29,7 +31,14 @@ pub(super) struct Picture {
 pub(super) struct Pictures<'a> {
     pub sessions: Vec<MarkedSession<'a>>,
     by_stem: BTreeMap<String, Vec<Picture>>,
+    by_words: OnceCell<BTreeMap<String, Vec<Picture>>>,
     count: usize,
+}
+
+/// A picture that an image may be, and how a tool changed its name.
+struct Candidate<'a> {
+    picture: &'a Picture,
+    change: Option<Change>,
 }
 
 impl<'a> Pictures<'a> {
@@ -59,41 +68,91 @@ impl<'a> Pictures<'a> {
         self.count += 1;
     }
 
-    /// The picture that a name with folders means. If several have the name, it is the one in the session that a folder of
-    /// the name is called after, else the one whose own folders agree best.
+    /// The picture that a name with folders means, and how a tool changed the name. If several have the name, it is the one in the
+    /// session that a folder of the name is called after, else the one whose own folders agree best.
     ///
     /// # Errors
     /// A text, where there is none, or several.
-    pub fn find(&self, name: &str) -> Result<&Picture, String> {
+    pub fn find(&self, name: &str) -> Result<(&Picture, Option<Change>), String> {
         let name = nfc(name.replace('\\', "/"));
-        let mut parts: Vec<&str> = name.split('/').filter(|part| !matches!(*part, "" | ".")).collect();
-        let of_name = self.of_name(parts.pop().unwrap_or_default());
-        let named: Vec<usize> = (0..self.sessions.len()).filter(|at| parts.contains(&self.session_name(*at))).collect();
-        let in_named = |picture: &&Picture| named.is_empty() || named.contains(&picture.session);
-        let candidates: Vec<&Picture> = of_name.iter().filter(in_named).collect();
-        let agreement = |picture: &Picture| {
-            let own = picture.file.rsplit('/').skip(1).chain([self.session_name(picture.session)]);
-            own.zip(parts.iter().rev()).take_while(|(own, part)| own == *part).count()
-        };
-        let most = candidates.iter().map(|picture| agreement(picture)).max();
-        let best: Vec<&Picture> = candidates.into_iter().filter(|picture| Some(agreement(picture)) == most).collect();
-        match best.as_slice() {
-            [picture] => self.unless_same_stem(picture, of_name),
-            [] => Err(self.not_found(&named, of_name)),
-            [first, rest @ ..] if rest.iter().all(|other| other.session == first.session) => {
-                self.unless_same_stem(first, of_name)
-            }
-            several => {
-                let several = self.listed(several);
-                Err(format!("it may be any of: {several}; name the session in its path, or give --session"))
-            }
+        match self.find_decoded(&name) {
+            // Folders of a web address are one word, in which the '/' between them is changed as well.
+            Err(fact) if name.contains("%2F") || name.contains("%2f") => match decoded(&name) {
+                Some(name) => self.find_decoded(&name).map(|(picture, _)| (picture, Some(Change::Percent))),
+                None => Err(fact),
+            },
+            found => found,
         }
     }
 
-    /// The pictures of this name, whatever the extension, which may be another, or missing.
-    fn of_name(&self, name: &str) -> &[Picture] {
-        let of_stem = self.by_stem.get(&stem_of(name)).or_else(|| self.by_stem.get(name));
-        of_stem.map(Vec::as_slice).unwrap_or_default()
+    fn find_decoded(&self, name: &str) -> Result<(&Picture, Option<Change>), String> {
+        let mut parts: Vec<&str> = name.split('/').filter(|part| !matches!(*part, "" | ".")).collect();
+        let of_name = self.of_name(parts.pop().unwrap_or_default());
+        let named: Vec<usize> = (0..self.sessions.len()).filter(|at| parts.contains(&self.session_name(*at))).collect();
+        let in_named = |candidate: &&Candidate<'_>| named.is_empty() || named.contains(&candidate.picture.session);
+        let candidates: Vec<&Candidate<'_>> = of_name.iter().filter(in_named).collect();
+        let agreement = |candidate: &Candidate<'_>| {
+            let picture = candidate.picture;
+            let own = picture.file.rsplit('/').skip(1).chain([self.session_name(picture.session)]);
+            own.zip(parts.iter().rev()).take_while(|(own, part)| own == *part).count()
+        };
+        let most = candidates.iter().map(|candidate| agreement(candidate)).max();
+        let best: Vec<&Candidate<'_>> =
+            candidates.into_iter().filter(|candidate| Some(agreement(candidate)) == most).collect();
+        let [first, rest @ ..] = best.as_slice() else { return Err(self.not_found(&named, &of_name)) };
+        let is_same_name = |other: &&Candidate<'_>| stem_of(&other.picture.file) == stem_of(&first.picture.file);
+        if rest.iter().any(|other| other.picture.session != first.picture.session || !is_same_name(other)) {
+            let several = self.listed(&best.iter().map(|candidate| candidate.picture).collect::<Vec<_>>());
+            return Err(format!("it may be any of: {several}; name the session in its path, or give --session"));
+        }
+        let picture = self.of_marks(first.picture.session, &stem_of(&first.picture.file))?;
+        let is_elsewhere = !parts.is_empty() && most == Some(0) && named.is_empty();
+        let picture = if rest.is_empty() { first.picture } else { picture };
+        Ok((picture, first.change.or(is_elsewhere.then_some(Change::Folders))))
+    }
+
+    /// The pictures of this name, whatever the extension, which may be another, or missing; and those whose name a tool may have
+    /// changed into this one.
+    fn of_name(&self, name: &str) -> Vec<Candidate<'_>> {
+        let of_stem = |stem: &str| self.by_stem.get(stem).map(Vec::as_slice).unwrap_or_default();
+        let stems = [stem_of(name), name.to_owned()];
+        let mut exact: Vec<Candidate<'_>> = Vec::new();
+        if let Some(pictures) = stems.iter().map(|stem| of_stem(stem)).find(|pictures| !pictures.is_empty()) {
+            exact.extend(pictures.iter().map(|picture| Candidate { picture, change: None }));
+        }
+        let before: Vec<(String, Change)> = stems.iter().flat_map(|stem| names_before(stem)).collect();
+        for (stem, change) in &before {
+            let new = of_stem(stem).iter().filter(|picture| exact.iter().all(|known| known.picture != *picture));
+            let new: Vec<_> = new.map(|picture| Candidate { picture, change: Some(*change) }).collect();
+            exact.extend(new);
+        }
+        if !exact.is_empty() {
+            return exact;
+        }
+        let mut alike: BTreeMap<&Picture, Change> = BTreeMap::new();
+        let [stem, _] = &stems;
+        for (name, change) in before.into_iter().chain([(stem.clone(), Change::Characters)]) {
+            let pictures = self.by_words().get(&words_of(&name)).map(Vec::as_slice).unwrap_or_default();
+            pictures.iter().for_each(|picture| {
+                alike.entry(picture).or_insert(change);
+            });
+        }
+        alike.into_iter().map(|(picture, change)| Candidate { picture, change: Some(change) }).collect()
+    }
+
+    /// The pictures by the words of the names that tools may give them, worked out where a name is not known as it is.
+    fn by_words(&self) -> &BTreeMap<String, Vec<Picture>> {
+        self.by_words.get_or_init(|| {
+            let mut by_words: BTreeMap<String, Vec<Picture>> = BTreeMap::new();
+            for picture in self.by_stem.values().flatten() {
+                let mut folders: Vec<&str> = picture.file.split('/').collect();
+                folders.pop();
+                for words in all_words(self.session_name(picture.session), &stem_of(&picture.file), &folders) {
+                    by_words.entry(words).or_default().push(picture.clone());
+                }
+            }
+            by_words
+        })
     }
 
     /// The picture of a session that a file of marks belongs to.
@@ -120,7 +179,7 @@ impl<'a> Pictures<'a> {
         ))
     }
 
-    fn not_found(&self, named: &[usize], of_name: &[Picture]) -> String {
+    fn not_found(&self, named: &[usize], of_name: &[Candidate<'_>]) -> String {
         let broken = named.iter().find_map(|at| {
             let session = self.sessions.get(*at)?;
             session.prepared.as_ref().err().map(|fact| format!("session '{}' cannot be used: {fact}", session.dir.name))
@@ -137,7 +196,7 @@ impl<'a> Pictures<'a> {
                 first.unwrap_or_default()
             );
         }
-        let others = self.listed(&of_name.iter().collect::<Vec<_>>());
+        let others = self.listed(&of_name.iter().map(|candidate| candidate.picture).collect::<Vec<_>>());
         format!("the session that its path names has no such image; others have: {others}")
     }
 
@@ -161,64 +220,4 @@ impl<'a> Pictures<'a> {
 }
 
 #[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-    use super::*;
-
-    fn place_of(cards: &[(&str, &[&str])], name: &str) -> Result<String, String> {
-        let dirs: Vec<SessionDir> = cards.iter().map(|(session, _)| SessionDir::new(session)).collect();
-        let mut pictures = Pictures::default();
-        for (dir, (_, files)) in dirs.iter().zip(cards) {
-            files.iter().for_each(|file| pictures.add((*file).to_owned()));
-            pictures.sessions.push(MarkedSession { dir, prepared: Err("broken".to_owned()) });
-        }
-        pictures.find(name).map(|picture| pictures.place(picture))
-    }
-
-    #[test]
-    fn a_name_with_or_without_folders() {
-        let cards: &[(&str, &[&str])] = &[("S1", &["images/a.jpg", "images/b.jpg"]), ("S2", &["images/a.jpg"])];
-        for (name, expected) in [
-            ("b.jpg", "S1/images/b.jpg"),
-            ("b.png", "S1/images/b.jpg"),
-            ("S1/b", "S1/images/b.jpg"),
-            ("S2/a.jpg", "S2/images/a.jpg"),
-            (r"study\cards\S1\images\a.jpg", "S1/images/a.jpg"),
-            ("./images/b.jpg", "S1/images/b.jpg"),
-            ("other/b.jpg", "S1/images/b.jpg"),
-        ] {
-            assert_eq!(place_of(cards, name).as_deref(), Ok(expected), "{name}");
-        }
-    }
-
-    #[test]
-    fn a_name_in_either_unicode_form() {
-        let cards: &[(&str, &[&str])] = &[("m\u{fc}ller", &["I/k\u{e4}se.jpg"]), ("S2", &["I/k\u{e4}se.jpg"])];
-        let found = place_of(cards, "mu\u{308}ller/ka\u{308}se.jpg");
-        assert_eq!(found.as_deref(), Ok("m\u{fc}ller/I/k\u{e4}se.jpg"));
-    }
-
-    #[test]
-    fn what_is_not_clear_is_not_guessed() {
-        let cards: &[(&str, &[&str])] =
-            &[("S1", &["images/a.jpg", "c.jpg", "c.png"]), ("S2", &["images/a.jpg", "b.jpg"]), ("S3", &[])];
-        for (name, expected) in [
-            ("a.jpg", "S1/images/a.jpg, S2/images/a.jpg"),
-            ("images/a.jpg", "may be any of"),
-            ("S1/S2/a.jpg", "may be any of"),
-            ("S3/b.jpg", "session 'S3' cannot be used: broken"),
-            ("d.jpg", "no card has an image of this name (5 images of 3 sessions, the first is S1/c.jpg)"),
-            ("S1/c.jpg", "several images of one session"),
-            ("", "no card has an image"),
-        ] {
-            let fact = place_of(cards, name).unwrap_err();
-            assert!(fact.contains(expected), "{name}: {fact}");
-        }
-    }
-
-    #[test]
-    fn the_folder_that_agrees_best_decides() {
-        let cards: &[(&str, &[&str])] = &[("S1", &["left/a.jpg"]), ("S2", &["right/a.jpg"])];
-        assert_eq!(place_of(cards, "right/a.jpg").as_deref(), Ok("S2/right/a.jpg"));
-    }
-}
+mod tests;

@@ -93,7 +93,8 @@ impl SessionMarks {
         };
         let bytes = labelme::read_bytes(path).map_err(refuse)?;
         inputs_sha256.insert(place.clone(), sha256_of_bytes(&bytes));
-        let marks = labelme::parse(&bytes, path, session.marks_camera.size_px()).map_err(refuse)?;
+        let mut marks = labelme::parse(&bytes, path, session.marks_camera.size_px()).map_err(refuse)?;
+        marks.refuse_four_corners(|object| session.study.is_round(object));
         problems.extend(marks.refused.into_iter().map(refuse));
         let image = image_of(images, &stem_of(&path.to_string_lossy()), &place)?;
         let with_found = |of: ObjectMarks| {

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ingest::Profile;
-use model::{Camera, CameraSpec, TableSpec};
+use model::{Camera, CameraSpec, Shape, TableSpec};
 
 use crate::calibration::CalibrationFile;
 pub use error::StudyError;
@@ -112,6 +112,11 @@ impl Study {
             Some(name) => load_camera(name, &self.dir.join("devices")),
             None => Ok((self.camera_spec.clone(), camera_of(&self.spec.camera, &self.camera_spec)?)),
         }
+    }
+
+    /// Whether objects.csv has this object as a round one.
+    pub(crate) fn is_round(&self, object: &str) -> bool {
+        self.objects.get(object).is_some_and(|object| object.container.shape == Shape::Circle)
     }
 
     /// Whether `path` lies in the study, links followed.

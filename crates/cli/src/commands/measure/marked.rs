@@ -21,11 +21,12 @@ const METHODS: [Method; 3] = [Method::Coaxial, Method::Ray, Method::Paper];
 /// where nothing could be measured.
 pub fn run(args: &MeasureArgs, view: &View, picture: &[u8], marks_file: &Path, kind: Kind) -> Result<Outcome, Failure> {
     let bytes = labelme::read_bytes(marks_file).map_err(Failure::usage)?;
-    let marks = labelme::parse(&bytes, marks_file, view.camera().size_px())?;
+    let mut marks = labelme::parse(&bytes, marks_file, view.camera().size_px())?;
     if marks.objects.is_empty() && marks.refused.is_empty() {
         return Err(Failure::Failed(anyhow!("the file of marks has no shapes: {}", marks_file.display())));
     }
     let shape = args.shape.unwrap_or(if kind == Kind::Box { Shape::Rectangle } else { Shape::Circle });
+    marks.refuse_four_corners(|_| shape == Shape::Circle);
     let container = Container { kind, shape, rim_height_mm: args.rim_height, wall: args.wall };
     let inputs = UncertaintySpec::default().inputs();
     let sizes: Vec<Size> = marks

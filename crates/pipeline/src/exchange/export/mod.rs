@@ -132,7 +132,8 @@ fn images_of(
         let name = pictures.of_marks(session, &stem_of(&path.to_string_lossy()));
         let marks = labelme::read_bytes(&path).and_then(|bytes| labelme::parse(&bytes, &path, size_px));
         match (name, marks) {
-            (Ok(picture), Ok(marks)) => {
+            (Ok(picture), Ok(mut marks)) => {
+                marks.refuse_four_corners(|object| study.is_round(object));
                 marks.refused.iter().for_each(|error| refuse(&path, error.to_string()));
                 let (marks, too_few) = labelled(marks.objects);
                 too_few.into_iter().for_each(|fact| refuse(&path, fact));
