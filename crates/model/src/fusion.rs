@@ -131,8 +131,8 @@ const MOST_TO_TEST: usize = 500;
 /// the sizes. One absurd size among three or more hardly moves it.
 ///
 /// The variances are those that the sizes would have if all of them were as large as their median, since a small size is not
-/// surer for being small. From the median, Huber's weights lead to a start and Tukey's to the result (an MM-estimate, Yohai,
-/// Ann. Stat. 1987), which gives no weight to what is far off. Errors from sources that the shares have in common move
+/// surer for being small. From the middle of the shortest half, Huber's weights lead to a start and Tukey's to the result (an
+/// MM-estimate, Yohai, Ann. Stat. 1987), which gives no weight to what is far off. Errors from sources that the shares have in common move
 /// them alike and do not average out: with weights w and derivatives g the fused size has the derivatives sum(w g), and its
 /// variance follows from those. Where the sizes differ by more than their uncertainties allow, the scatter of those with weight
 /// is a part of the uncertainty.
@@ -142,7 +142,7 @@ pub fn fuse(shares: &[Share]) -> Option<Fused> {
     let (smallest, largest) = (values.iter().copied().reduce(f64::min)?, values.iter().copied().reduce(f64::max)?);
     let middle_mm = median(values.clone());
     let alike: Vec<Share> = shares.iter().map(|share| share.carried_to(middle_mm)).collect();
-    let (weights, off) = robust_weights(&alike, middle_mm);
+    let (weights, off) = robust_weights(&alike);
     let value_mm = weighted_mean(shares, &weights).clamp(smallest, largest);
     let outliers: Vec<usize> = (0..shares.len()).filter(|&i| off[i].abs() > OUTLYING).collect();
     let consistency = consistency(&alike);
@@ -162,8 +162,9 @@ pub fn fuse(shares: &[Share]) -> Option<Fused> {
     })
 }
 
-/// The weights of the shares, which add up to 1, and how far each is off from the others; see [`standardised_residuals`].
-fn robust_weights(shares: &[Share], middle_mm: f64) -> (Vec<f64>, Vec<f64>) {
+/// The weights of the shares, which add up to 1, and how far each is off from the others: in its own standard uncertainties, or in
+/// the scatter of all where that is larger than stated.
+fn robust_weights(shares: &[Share]) -> (Vec<f64>, Vec<f64>) {
     let variance = |share: &Share| (share.sigma().total_mm.powi(2) * share.penalty).max(TINY);
     let base: Vec<f64> = shares.iter().map(|share| variance(share).recip()).collect();
     let mut weights = normalised(&base);
@@ -172,10 +173,14 @@ fn robust_weights(shares: &[Share], middle_mm: f64) -> (Vec<f64>, Vec<f64>) {
         return (weights, off);
     }
     let covariance = common_of(shares);
-    let mut value_mm = middle_mm;
+    let mut value_mm = middle_of_shortest_half(shares.iter().map(|share| share.value_mm).collect());
+    // The scatter about the start is the unit of all steps: one that followed the steps would grow with what is far off.
+    let at_start = standardised_residuals(shares, &weights, value_mm, &covariance);
+    let scale = (ROBUST_SD * median(at_start.iter().map(|t| t.abs()).collect())).max(1.0);
     for factor in [huber, bisquare] {
         for _ in 0..STEPS {
             off = standardised_residuals(shares, &weights, value_mm, &covariance);
+            off.iter_mut().for_each(|t| *t /= scale);
             weights = normalised(&base.iter().zip(&off).map(|(w, t)| w * factor(t.abs())).collect::<Vec<_>>());
             let next = weighted_mean(shares, &weights);
             let settled = (next - value_mm).abs() <= 1e-12 * next.abs();
@@ -186,6 +191,18 @@ fn robust_weights(shares: &[Share], middle_mm: f64) -> (Vec<f64>, Vec<f64>) {
         }
     }
     (weights, off)
+}
+
+/// The middle of the shortest interval that holds more than half of the values; the mean of the middles where several are
+/// equally short. It stays with the others when any one of three or more values is absurd.
+fn middle_of_shortest_half(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let half = values.len() / 2 + 1;
+    let length = |window: &[f64]| window[half - 1] - window[0];
+    let shortest = values.windows(half).map(length).fold(f64::INFINITY, f64::min);
+    let equally_short = values.windows(half).filter(|window| length(window) <= shortest * (1.0 + 1e-9));
+    let middles: Vec<f64> = equally_short.map(|window| 0.5 * (window[0] + window[half - 1])).collect();
+    ErrorStats::from_errors(&middles).map_or(f64::NAN, |stats| stats.mean)
 }
 
 /// Huber's weight of what is off by `t` of its own uncertainties.
@@ -261,7 +278,7 @@ fn weighted_mean(shares: &[Share], weights: &[f64]) -> f64 {
 }
 
 /// How far each share is off from the others, in its own standard uncertainties. Sources that they have in common count only as
-/// far as they move the shares differently. Where all shares scatter more than stated, the unit is that scatter.
+/// far as they move the shares differently.
 fn standardised_residuals(
     shares: &[Share],
     weights: &[f64],
@@ -269,16 +286,12 @@ fn standardised_residuals(
     covariance: &SourceCovariance,
 ) -> Vec<f64> {
     let mean: PerSource = shares.iter().zip(weights).map(|(share, w)| share.by_source() * *w).sum();
-    let off: Vec<f64> = shares
-        .iter()
-        .map(|share| {
-            let difference = share.by_source() - mean;
-            let own = share.own_variance() * share.penalty + (covariance * difference).dot(&difference);
-            (share.value_mm - value_mm) / own.max(TINY).sqrt()
-        })
-        .collect();
-    let scale = (ROBUST_SD * median(off.iter().map(|t| t.abs()).collect())).max(1.0);
-    off.into_iter().map(|t| t / scale).collect()
+    let residual = |share: &Share| {
+        let difference = share.by_source() - mean;
+        let own = share.own_variance() * share.penalty + (covariance * difference).dot(&difference);
+        (share.value_mm - value_mm) / own.max(TINY).sqrt()
+    };
+    shares.iter().map(residual).collect()
 }
 
 /// The test of agreement; `None` for fewer than 2 or more than [`MOST_TO_TEST`] shares, or where it has no finite value.

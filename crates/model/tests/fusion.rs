@@ -66,7 +66,7 @@ fn one_that_is_off_is_named_and_counts_less() {
 
 #[test]
 fn a_doubtful_picture_counts_less() {
-    let shares = [share(200.0, 0), Share { penalty: 4.0, ..share(210.0, 1) }];
+    let shares = [in_proportion(200.0, 0, 0.8), Share { penalty: 4.0, ..in_proportion(210.0, 1, 0.8) }];
     let result = fuse(&shares).unwrap();
     assert!((result.weights[0] / result.weights[1] - 4.0).abs() < 1e-9 && (result.value_mm - 202.0).abs() < 1e-9);
 }
@@ -118,11 +118,13 @@ fn a_small_size_is_not_surer_for_being_small() {
 /// Half of the difference of two sizes is the standard error of their mean.
 #[test]
 fn the_uncertainty_holds_a_disagreement_and_only_that() {
-    let apart = fused(&[200.0, 260.0]);
-    let own = (200.0_f64 * 0.03).hypot(150.0 * 0.01); // what both share, of which nothing is disagreement
+    let [a, b] = [200.0, 260.0].map(|v| in_proportion(v, usize::from(v > 200.0), 0.8));
+    let apart = fuse(&[a, b]).unwrap();
+    // Common to both, of which nothing is disagreement: 3 % of range, and 0.01 rad of pitch, at 230 mm.
+    let own = 230.0 * 0.03_f64.hypot(0.01 * 150.0 / 200.0);
     assert_eq!(apart.consistency.unwrap().verdict, Verdict::Inconsistent);
     assert!((apart.sigma.total_mm - 30.0_f64.hypot(own)).abs() < 0.1, "{apart:?}");
-    assert!((apart.sigma.disagreement_mm - 30.0).abs() < 0.2);
+    assert!((apart.sigma.disagreement_mm - 30.0).abs() < 0.2, "{apart:?}");
     assert_eq!(fused(&[200.0, 202.0]).sigma.disagreement_mm, 0.0);
 }
 

@@ -11,7 +11,7 @@ use crate::time::UtcNs;
 
 /// Version of both schemas. It rises when a column is removed, renamed, or changes its type, unit or meaning; a new
 /// column at the end of a schema does not raise it.
-pub const RESULTS_SCHEMA_VERSION: u32 = 1;
+pub const RESULTS_SCHEMA_VERSION: u32 = 2;
 
 /// One column of a schema.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
