@@ -58,6 +58,22 @@ fn never_set() {
     assert_eq!(told.exit, 3);
     assert!(told.losses().contains(&"no_image_with_pose"));
     assert_eq!(told.reasons, [NoAcceleration; IMAGES]);
+    assert!(told.losses().contains(&"no_common_time"), "{:?}", told.losses());
+    let fact = told.fact("no_common_time");
+    assert!(fact.contains("accelerometer 1970-01-01") && fact.contains("another epoch"), "{fact}");
+}
+
+#[test]
+fn a_wrong_zone_is_told_with_both_spans_and_the_hours_between() {
+    let study = DamagedStudy::new();
+    for file in [ACC, RNG] {
+        study.corrupt(file, |file| file.shift_clock(0, -7.0 * 3600.0));
+    }
+    let told = study.run();
+    assert_eq!(told.exit, 3);
+    let fact = told.fact("no_common_time");
+    assert!(fact.starts_with("images 2024-01-01 00:00:") && fact.contains("accelerometer 2023-12-31 17:00:"), "{fact}");
+    assert!(fact.contains("7 h apart") && fact.contains("two zones"), "{fact}");
 }
 
 #[test]

@@ -40,6 +40,7 @@ coded_enum! {
         LongLine = "long_line": "a line is too long for a table of numbers, such as a block of zeros; the rest of the file is not used",
         SamplesWithoutTime = "samples_without_time": "samples have no time that can be told; they are lost",
         NoSamples = "no_samples": "the file holds no sample",
+        TextEncoding = "text_encoding": "a log is UTF-16 text, and is not read",
         Gaps = "gaps": "there are holes between packets; nothing is bridged",
         DuplicatePackets = "duplicate_packets": "packets are there twice, and are used once",
         PacketsOutOfOrder = "packets_out_of_order": "packets stand in another order than their times; they are put in order",
@@ -50,6 +51,8 @@ coded_enum! {
         TwoRecordings = "two_recordings": "more than 6 h lie between images: the card may hold several recordings, or the device's clock was reset",
         ImageLagEstimated = "image_lag_estimated": "the lag between images and sensors was worked out; it is told, and not applied",
         ImageLagUnknown = "image_lag_unknown": "the lag between images and sensors cannot be told from this session",
+        StampsShared = "stamps_shared": "rows of a log share stamps; they are spread evenly where their number shows the rate, else left out",
+        NoCommonTime = "no_common_time": "sensors, images or marks have no time in common, or hardly any: a zone or an epoch is likely wrong",
         EmptyImage = "empty_image": "the file of an image has no bytes",
         NotAnImage = "not_an_image": "the file does not begin like a JPEG or PNG picture, or its header is damaged",
         DamagedImage = "damaged_image": "the data of a picture end before their end marker, or hold a block of zeros",
@@ -137,6 +140,7 @@ impl ProblemCode {
             Self::LongLine => "check that the file is text with line ends",
             Self::SamplesWithoutTime => "correct the time that the profile declares",
             Self::NoSamples => "nothing, if the device recorded nothing; else copy the file again",
+            Self::TextEncoding => "save the file as UTF-8",
             Self::Gaps => "none needed: images in a gap have no pose",
             Self::DuplicatePackets => "none needed",
             Self::PacketsOutOfOrder => "none needed",
@@ -151,6 +155,10 @@ impl ProblemCode {
                 "if it differs from the declared one and is alike in other sessions, set [time] image_lag_s to it"
             }
             Self::ImageLagUnknown => "none needed: a session with more motion tells more",
+            Self::StampsShared => "let the logger write times with decimals",
+            Self::NoCommonTime => {
+                "correct time_zone in study.toml, the epoch in the device profile, or clock_zero_utc in session.toml"
+            }
             Self::EmptyImage => "copy the file from the card again; if it stays so, the image is lost",
             Self::NotAnImage => "copy the file from the card again; if it stays so, the image is lost",
             Self::DamagedImage => "copy the file from the card again; check the card for bad blocks",

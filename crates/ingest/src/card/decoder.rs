@@ -120,6 +120,11 @@ impl Layout {
         matches!(&self.files, FileLayout::Csv(csv) if csv.time.column.is_none())
     }
 
+    /// Whether each row has a stamp.
+    pub fn has_row_stamps(&self) -> bool {
+        matches!(&self.files, FileLayout::Csv(csv) if csv.time.column.is_some())
+    }
+
     /// Whether rows are spread evenly over a declared time, so that they must be counted first: over how many seconds.
     pub fn rows_over_s(&self) -> Option<f64> {
         match &self.files {

@@ -10,6 +10,10 @@ use super::CardFile;
 use super::decoder::{Decoder, Layout};
 use crate::parse::{RawBlock, Stamps, image_time};
 use crate::profile::{Anchor, ClockSpec};
+use crate::timeline::{LEARNED_ROWS, SharedStamps, StampCounts};
+
+/// If these rows of a file have stamps of their own, so have all.
+const FIRST_ROWS: u64 = 4096;
 
 /// The source of the time at which boot-relative clocks were zero.
 #[derive(Debug, Clone)]
@@ -75,6 +79,22 @@ fn first_stamp_ns(file: &CardFile, layout: &Layout, anchoring: &Anchoring<'_>) -
             return Some(zero_ns.saturating_add(ns));
         }
     }
+}
+
+/// How rows of a CSV file share stamps, by its first rows. None where they have stamps of their own, or none.
+pub(crate) fn shared_stamps(file: &CardFile, layout: &Layout) -> Option<SharedStamps> {
+    if !layout.has_row_stamps() {
+        return None;
+    }
+    let mut decoder = Decoder::new(File::open(&file.path).ok()?, layout);
+    let mut counts = StampCounts::default();
+    while let Some(RawBlock { stamps: Stamps::Each(stamps), .. }) = decoder.next_block() {
+        counts.add(&stamps);
+        if counts.rows() >= LEARNED_ROWS || (counts.rows() >= FIRST_ROWS && counts.shared(layout.rate_hz).is_none()) {
+            break;
+        }
+    }
+    counts.shared(layout.rate_hz)
 }
 
 /// Rows of a file, missing and damaged ones included.

@@ -6,11 +6,11 @@ use model::{Problem, ProblemCode};
 
 use super::decoder::{Decoder, Layout};
 use super::hashing::{HashingReader, Inputs, open_hashing};
-use super::sensor_files::{Anchoring, count_rows, in_order};
+use super::sensor_files::{Anchoring, count_rows, in_order, shared_stamps};
 use super::{CardFile, Place};
-use crate::parse::Fault;
+use crate::parse::{Fault, RawBlock};
 use crate::progress::IngestProgress;
-use crate::timeline::{Block, ClockError, Line, Stepper, StreamFacts};
+use crate::timeline::{Block, ClockError, Line, Spreader, Stepper, StreamFacts};
 
 /// Streams the blocks of one sensor in order of time, files in the order of their first samples.
 pub(crate) struct Stream<'a> {
@@ -33,10 +33,24 @@ struct OpenFile<'a> {
     decoder: Decoder<HashingReader<'a>>,
     /// Where rows are spread over a declared time: how many are a second.
     rows_per_s: Option<f64>,
+    /// Where rows share stamps.
+    spreader: Option<Spreader>,
     samples: u64,
     missing: u64,
     unclocked: u64,
     clock_error: Option<ClockError>,
+}
+
+impl OpenFile<'_> {
+    /// The next packet or batch, its rows spread where they share stamps. None at the end of the file.
+    fn next_block(&mut self) -> Option<RawBlock> {
+        let raw = self.decoder.next_block();
+        match (&mut self.spreader, raw) {
+            (None, raw) => raw,
+            (Some(spreader), Some(raw)) => Some(spreader.push(raw)),
+            (Some(spreader), None) => spreader.finish(),
+        }
+    }
 }
 
 impl<'a> Stream<'a> {
@@ -108,7 +122,7 @@ impl<'a> Stream<'a> {
             }
             return;
         };
-        let Some(mut raw) = open.decoder.next_block() else {
+        let Some(mut raw) = open.next_block() else {
             self.close();
             return;
         };
@@ -143,14 +157,24 @@ impl<'a> Stream<'a> {
         match open_hashing(&file, self.progress) {
             Ok(reader) => {
                 let decoder = Decoder::new(reader, &self.layout);
+                let spreader = self.spreader(&file);
                 let (samples, missing, unclocked, clock_error) = (0, 0, 0, None);
-                self.current = Some(OpenFile { file, decoder, rows_per_s, samples, missing, unclocked, clock_error });
+                self.current =
+                    Some(OpenFile { file, decoder, rows_per_s, spreader, samples, missing, unclocked, clock_error });
             }
             Err(error) => {
                 self.inputs.add_unreadable(&file);
                 self.report(&file.name, &Fault::Unreadable { offset: 0, message: error.to_string() });
             }
         }
+    }
+
+    /// For a file whose rows share stamps; tells so.
+    fn spreader(&mut self, file: &CardFile) -> Option<Spreader> {
+        let shared = shared_stamps(file, &self.layout)?;
+        let remedy = "let the logger write times with decimals, or declare rows_per_s in place of the column";
+        self.problems.push(self.place.note(ProblemCode::StampsShared, &file.name, shared.fact(), remedy));
+        Some(Spreader::new(shared))
     }
 
     fn close(&mut self) {
@@ -163,6 +187,10 @@ impl<'a> Stream<'a> {
         }
         if let Some(error) = open.clock_error {
             faults.push(Fault::NoTime { samples: open.unclocked, first: error.to_string() });
+        }
+        if let Some(Spreader { left_out: rows @ 1.., first_left_out, .. }) = open.spreader {
+            let (first_rows, first_stamp_ns) = first_left_out.unwrap_or_default();
+            faults.push(Fault::StampShared { rows, first_rows, first_stamp_ns });
         }
         if faults.is_empty() && open.samples == 0 && open.missing == 0 {
             faults.push(Fault::NoSamples);

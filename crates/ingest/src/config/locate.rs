@@ -14,7 +14,12 @@ pub(super) fn config_error(error: &Error, text: &str, path: &Path) -> ConfigErro
         return ConfigError::UnknownKey { path, line, column, nearest: nearest(&key, &known), key, known };
     }
     let (line, column) = line_and_column(text, start);
-    ConfigError::Malformed { path, line, column, key: key_at(text, line), message: error.message().replace('\n', "; ") }
+    let mut message = error.message().replace('\n', "; ");
+    // serde calls TOML's own dates and times maps.
+    if message.contains("invalid type: map") && error.span().and_then(|span| text.get(span)).is_some_and(is_date_time) {
+        message = format!("{message}; a date or time stands here without quotes: write it in quotes");
+    }
+    ConfigError::Malformed { path, line, column, key: key_at(text, line), message }
 }
 
 /// The known word that is most like `word`.
@@ -22,6 +27,10 @@ pub(super) fn config_error(error: &Error, text: &str, path: &Path) -> ConfigErro
 pub fn nearest(word: &str, known: &[String]) -> Option<String> {
     let likeness = |candidate: &String| strsim::jaro_winkler(word, candidate);
     known.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b))).cloned()
+}
+
+fn is_date_time(value: &str) -> bool {
+    value.trim().parse::<toml::value::Datetime>().is_ok()
 }
 
 /// The key and the known keys in serde's "unknown field `a`, expected `b`", "... one of `b`, `c`", "... no fields".

@@ -1,6 +1,7 @@
 //! From a card to an MCAP file.
 
 mod clock_problems;
+mod common_time;
 mod dropped;
 mod image_tally;
 mod read_ahead;

@@ -8,7 +8,7 @@ use model::{Camera, Problem, ProblemCode, UtcNs};
 use super::clock_problems::clock_problems;
 use super::image_tally::ImageTally;
 use super::read_ahead::read_ahead;
-use super::{dropped, recordings};
+use super::{common_time, dropped, recordings};
 use crate::card::{Anchoring, Card, CardFile, Inputs, Layout, Patterns, Place, Stream, TakenImage, judge_image};
 use crate::error::IngestError;
 use crate::key::{self, INGEST_VERSION};
@@ -148,6 +148,7 @@ impl<'a> Run<'a> {
         self.problems.extend(tally.notes(self.place));
         let times: Vec<UtcNs> = entries.iter().map(|entry| entry.time).collect();
         self.problems.extend(recordings::note(&times, self.place));
+        self.problems.extend(common_time::problems(&times, &self.timeline, &source.profile, self.place));
         Ok(entries)
     }
 

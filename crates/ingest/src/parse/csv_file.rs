@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 use std::io::Read;
 
-use jiff::fmt::strtime::BrokenDownTime;
 use jiff::tz::TimeZone;
 
 use super::csv_rows::CsvRows;
 use super::raw::{RawBlock, Stamps};
+use super::written_time::{self, WrittenTime};
 use super::{Converter, Fault, decimal};
 use crate::profile::{CsvFormat, RowTime};
 
@@ -231,21 +231,15 @@ fn columns(layout: &CsvLayout, find: impl Fn(&String) -> Result<usize, Fault>) -
     })
 }
 
-/// Whether a strptime pattern of a time names its zone: by an offset, by seconds since 1970, or by a literal Z at its end.
-pub(crate) fn names_zone(format: &str) -> bool {
-    let names = ["%z", "%:z", "%s", "%Q", "%:Q"].iter().any(|directive| format.contains(directive));
-    names || (format.ends_with('Z') && !format.ends_with("%Z"))
-}
-
 /// A date and time as text: with an offset in ns since 1970 UTC, without one in ns since 1970-01-01 on the wall clock.
 fn civil_ns(field: &[u8], format: &str) -> Result<i64, String> {
-    let parsed = BrokenDownTime::parse(format, field).map_err(|error| error.to_string())?;
-    let timestamp = match parsed.to_timestamp() {
-        Ok(timestamp) => timestamp,
-        Err(_) => {
-            let civil = parsed.to_datetime().map_err(|error| error.to_string())?;
-            TimeZone::UTC.to_timestamp(civil).map_err(|error| error.to_string())?
+    let timestamp = match written_time::parse(field, format, false)? {
+        WrittenTime::Utc(timestamp) => timestamp,
+        WrittenTime::InZone(civil, zone) => {
+            let zoned = zone.to_ambiguous_zoned(civil).unambiguous().map_err(|error| error.to_string())?;
+            zoned.timestamp()
         }
+        WrittenTime::Local(civil) => TimeZone::UTC.to_timestamp(civil).map_err(|error| error.to_string())?,
     };
     i64::try_from(timestamp.as_nanosecond()).map_err(|error| error.to_string())
 }

@@ -25,6 +25,8 @@ pub(super) struct CsvRows<R> {
     /// The place in the file where `bytes` begins.
     offset: u64,
     at_end: bool,
+    /// The byte at which lines end, once it is known.
+    line_end: Option<u8>,
     lines: u64,
     row: Range<usize>,
     fields: Vec<Range<usize>>,
@@ -42,6 +44,7 @@ impl<R: Read> CsvRows<R> {
             end: 0,
             offset: 0,
             at_end: false,
+            line_end: None,
             lines: 0,
             row: 0..0,
             fields: Vec::new(),
@@ -128,9 +131,13 @@ impl<R: Read> CsvRows<R> {
 
     /// The next line, without its end.
     fn next_line(&mut self) -> Result<Option<Range<usize>>, Fault> {
+        let line_end = match self.line_end {
+            Some(line_end) => line_end,
+            None => self.learn_line_end()?,
+        };
         let mut searched = self.next;
         loop {
-            if let Some(found) = memchr(b'\n', &self.bytes[searched..self.end]) {
+            if let Some(found) = memchr(line_end, &self.bytes[searched..self.end]) {
                 let line = self.next..searched + found;
                 if line.len() > LONGEST_ROW_BYTES {
                     return Err(self.long_line());
@@ -151,6 +158,22 @@ impl<R: Read> CsvRows<R> {
             searched = self.end - self.next;
             self.read_on()?;
         }
+    }
+
+    /// The byte at which the lines of the file end: a carriage return alone, as old systems and some loggers write it, only
+    /// where no line of a whole buffer ends otherwise. Refuses text of two bytes per character.
+    fn learn_line_end(&mut self) -> Result<u8, Fault> {
+        while !self.at_end && self.end < self.bytes.len() && memchr(b'\n', &self.bytes[..self.end]).is_none() {
+            self.read_on()?;
+        }
+        let bytes = &self.bytes[..self.end];
+        if is_utf16(bytes) {
+            return Err(Fault::Utf16);
+        }
+        let has_only_returns = memchr(b'\n', bytes).is_none() && memchr(b'\r', bytes).is_some();
+        let line_end = if has_only_returns { b'\r' } else { b'\n' };
+        self.line_end = Some(line_end);
+        Ok(line_end)
     }
 
     fn long_line(&mut self) -> Fault {
@@ -176,4 +199,15 @@ impl<R: Read> CsvRows<R> {
             return Ok(());
         }
     }
+}
+
+/// Whether bytes are UTF-16 text: by its mark, or by the zeros that it has where other text has none.
+fn is_utf16(bytes: &[u8]) -> bool {
+    let has_mark = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
+    let is_text = |a: u8, b: u8| a == 0 && b != 0;
+    let looks_so = |first: [u8; 4]| {
+        let [a, b, c, d] = first;
+        (is_text(a, b) && is_text(c, d)) || (is_text(b, a) && is_text(d, c))
+    };
+    has_mark || bytes.first_chunk().is_some_and(|first| looks_so(*first))
 }

@@ -110,6 +110,9 @@ pub enum Fault {
         /// The longest that is read.
         limit: usize,
     },
+    /// Text of two bytes per character.
+    #[error("the file is UTF-16 text; expected UTF-8 or ASCII; it is not read")]
+    Utf16,
     /// The system cannot read on.
     #[error("cannot be read from byte {offset} on: {message}")]
     Unreadable {
@@ -125,6 +128,19 @@ pub enum Fault {
         samples: u64,
         /// Why the first one has none.
         first: String,
+    },
+    /// Rows that share a stamp, more or fewer than usual: when within it they were taken cannot be told.
+    #[error(
+        "{rows} rows share stamps with more or fewer rows than usual, first {first_rows} rows of {} s on the sensor's clock: when they were taken cannot be told, and they are left out",
+        *first_stamp_ns as f64 / 1e9
+    )]
+    StampShared {
+        /// The number of them.
+        rows: u64,
+        /// The number of those of the first such stamp.
+        first_rows: usize,
+        /// The first such stamp, ns since the clock's zero.
+        first_stamp_ns: i64,
     },
     /// Nothing usable in the file.
     #[error("the file holds no samples")]
@@ -160,8 +176,9 @@ impl Fault {
             Self::MissingColumn { .. } => ProblemCode::MissingColumn,
             Self::BadRows { .. } => ProblemCode::BadRows,
             Self::LongLine { .. } => ProblemCode::LongLine,
+            Self::Utf16 => ProblemCode::TextEncoding,
             Self::Unreadable { .. } => ProblemCode::UnreadableFile,
-            Self::NoTime { .. } => ProblemCode::SamplesWithoutTime,
+            Self::NoTime { .. } | Self::StampShared { .. } => ProblemCode::SamplesWithoutTime,
             Self::NoSamples => ProblemCode::NoSamples,
         }
     }
@@ -182,8 +199,15 @@ impl Fault {
             Self::MissingColumn { .. } => "correct the column's name in the device profile, or the file",
             Self::BadRows { .. } => "look at that line; time and values are plain decimal numbers",
             Self::LongLine { .. } => "copy the file from the card again; a damaged card leaves blocks of zeros",
+            Self::Utf16 => {
+                "save the file as UTF-8, such as by `iconv -f UTF-16 -t UTF-8`; Windows tools call UTF-16 'Unicode'"
+            }
             Self::Unreadable { .. } => "copy the file from the card again; check its permissions",
             Self::NoTime { .. } => "declare the clock in the device profile: epoch, wrap_bits, [clock] anchor",
+            Self::StampShared { .. } => {
+                "let the logger write times with decimals; or, if no row is missing, declare rows_per_s in the profile in \
+                 place of the time's column"
+            }
             Self::NoSamples => "remove the file if the device wrote it empty, else copy it from the card again",
         }
     }

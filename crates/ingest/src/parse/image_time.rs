@@ -2,10 +2,12 @@
 
 use exif::{Field, In, Tag, Value};
 use jiff::civil::DateTime;
-use jiff::fmt::strtime::{self, BrokenDownTime};
-use jiff::tz::{Offset, TimeZone};
+use jiff::tz::TimeZone;
 use jiff::{Timestamp, Zoned};
 use model::UtcNs;
+
+use super::exif_time::ExifTime;
+use super::written_time::{self, WrittenTime};
 
 /// Why an image has no time.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -53,42 +55,31 @@ pub enum TimeError {
     Range(String),
 }
 
-/// Whether a pattern consists of strptime directives that give a date and a time.
+/// Whether a pattern consists of strptime directives that give a date and a time to the second, and uses all of them.
 ///
 /// # Errors
 /// The fault.
 pub fn check_pattern(pattern: &str) -> Result<(), String> {
-    let probe = Timestamp::UNIX_EPOCH.to_zoned(TimeZone::UTC);
-    let name = strtime::format(pattern, &probe).map_err(|error| error.to_string())?;
-    match from_name(&name, pattern, &TimeZone::UTC) {
-        Ok(_) => Ok(()),
-        Err(error) => Err(error.to_string()),
-    }
+    written_time::check_pattern(pattern, true)
 }
 
-/// The time in a file name. The pattern is tried on the whole name, then on the name without its extension.
+/// The time in a file name. The pattern is tried on the whole name, then on the name without its extension; digits behind
+/// the last point are a fraction or a number, not an extension.
 ///
 /// # Errors
 /// [`TimeError`] when the name does not fit, or its local time is none or two.
 pub fn from_name(name: &str, pattern: &str, zone: &TimeZone) -> Result<UtcNs, TimeError> {
-    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-    let parsed = BrokenDownTime::parse(pattern, name).or_else(|_| BrokenDownTime::parse(pattern, stem));
-    let wrong = |error: jiff::Error| TimeError::Name {
-        name: name.to_owned(),
-        pattern: pattern.to_owned(),
-        why: error.to_string(),
-    };
-    let parsed = parsed.map_err(wrong)?;
-    if parsed.timestamp().is_none() && parsed.second().is_none() {
-        // Midnight, or the full minute, would be a guess.
-        let why = "the pattern does not give hour, minute and second".to_owned();
-        return Err(TimeError::Name { name: name.to_owned(), pattern: pattern.to_owned(), why });
+    let is_extension = |tail: &str| !tail.starts_with(|c: char| c.is_ascii_digit());
+    let stem = name.rsplit_once('.').filter(|(_, tail)| is_extension(tail)).map_or(name, |(stem, _)| stem);
+    let parsed = written_time::parse(name.as_bytes(), pattern, true)
+        .or_else(|_| written_time::parse(stem.as_bytes(), pattern, true));
+    let wrong = |why| TimeError::Name { name: name.to_owned(), pattern: pattern.to_owned(), why };
+    match parsed.map_err(wrong)? {
+        WrittenTime::Utc(time) => utc_ns(time),
+        WrittenTime::InZone(local, named) => in_zone(local, &named),
+        WrittenTime::Local(local) if is_utc(pattern) => in_zone(local, &TimeZone::UTC),
+        WrittenTime::Local(local) => in_zone(local, zone),
     }
-    if parsed.timestamp().is_some() || parsed.offset().is_some() {
-        return utc_ns(parsed.to_timestamp().map_err(wrong)?);
-    }
-    let local = parsed.to_datetime().map_err(wrong)?;
-    if is_utc(pattern) { in_zone(local, &TimeZone::UTC) } else { in_zone(local, zone) }
 }
 
 /// A pattern whose last letter is a literal Z, not the directive `%Z`.
@@ -111,26 +102,20 @@ pub fn from_exif(image: &[u8], zone: &TimeZone) -> Result<UtcNs, TimeError> {
         .read_from_container(&mut std::io::Cursor::new(image))
         .or_else(|error| error.distill_partial_result(|_| ()))
         .map_err(wrong)?;
-    let text = |tag| exif.get_field(tag, In::PRIMARY).and_then(ascii);
+    let text = |tag| exif.get_field(tag, In::PRIMARY).map(text_of).transpose();
     let missing = || TimeError::Exif("there is no DateTimeOriginal".to_owned());
-    let mut time = exif::DateTime::from_ascii(text(Tag::DateTimeOriginal).ok_or_else(missing)?).map_err(wrong)?;
-    if let Some(digits) = text(Tag::SubSecTimeOriginal) {
-        time.parse_subsec(digits).map_err(wrong)?;
+    let date_time = text(Tag::DateTimeOriginal)?.filter(|text| !is_blank(text)).ok_or_else(missing)?;
+    let (subsec, offset) = (text(Tag::SubSecTimeOriginal)?, text(Tag::OffsetTimeOriginal)?);
+    let mut time = ExifTime::parse(&date_time, subsec.as_deref(), offset.as_deref()).map_err(TimeError::Exif)?;
+    if time.offset.is_none() {
+        // That of the file's own time. GPS stamps are not read: a receiver indoors repeats old ones.
+        let offset = text(Tag::OffsetTime)?;
+        time = ExifTime::parse(&date_time, subsec.as_deref(), offset.as_deref()).map_err(TimeError::Exif)?;
     }
-    // The first of the two that says something. GPS stamps are not read: a receiver indoors repeats old ones.
-    for offset in [Tag::OffsetTimeOriginal, Tag::OffsetTime].into_iter().filter_map(text) {
-        match time.parse_offset(offset) {
-            Ok(()) => break,
-            Err(exif::Error::BlankValue(_)) => {}
-            Err(error) => return Err(wrong(error)),
-        }
-    }
-    let local = civil(&time).ok_or_else(|| TimeError::Exif(format!("{time} is no date and time")))?;
     match time.offset {
-        None => in_zone(local, zone),
-        Some(minutes) => {
-            let offset = Offset::from_seconds(i32::from(minutes) * 60);
-            let utc = offset.and_then(|offset| offset.to_timestamp(local));
+        None => in_zone(time.local, zone),
+        Some(offset) => {
+            let utc = offset.to_timestamp(time.local);
             utc_ns(utc.map_err(|error| TimeError::Exif(error.to_string()))?)
         }
     }
@@ -164,25 +149,24 @@ pub(crate) fn utc_text(time: UtcNs) -> String {
     Timestamp::from_nanosecond(time.0.into()).map_or_else(|_| format!("{} ns", time.0), |time| time.to_string())
 }
 
-fn ascii(field: &Field) -> Option<&[u8]> {
-    match &field.value {
+/// The text of a field, to its first NUL; some programs write texts as bytes.
+///
+/// # Errors
+/// A field that holds no text says something that is not read.
+fn text_of(field: &Field) -> Result<String, TimeError> {
+    let bytes = match &field.value {
         Value::Ascii(lines) => lines.first().map(Vec::as_slice),
+        Value::Byte(bytes) | Value::Undefined(bytes, _) => Some(bytes.as_slice()),
         _ => None,
-    }
+    };
+    let before_nul = bytes.and_then(|bytes| bytes.split(|byte| *byte == 0).next());
+    let text = before_nul.filter(|bytes| bytes.is_ascii()).map(|bytes| String::from_utf8_lossy(bytes).into_owned());
+    text.ok_or_else(|| TimeError::Exif(format!("{} holds no text", field.tag)))
 }
 
-fn civil(time: &exif::DateTime) -> Option<DateTime> {
-    let small = |value: u8| i8::try_from(value).ok();
-    DateTime::new(
-        i16::try_from(time.year).ok()?,
-        small(time.month)?,
-        small(time.day)?,
-        small(time.hour)?,
-        small(time.minute)?,
-        small(time.second)?,
-        i32::try_from(time.nanosecond.unwrap_or(0)).ok()?,
-    )
-    .ok()
+/// Whether a date and time is left open, as EXIF writes an unknown one.
+fn is_blank(text: &str) -> bool {
+    text.bytes().all(|byte| matches!(byte, b' ' | b':'))
 }
 
 /// A local time that is none or two is refused, not guessed.

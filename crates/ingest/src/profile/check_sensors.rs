@@ -2,7 +2,7 @@
 
 use super::check::{Wrong, check_files, check_positive, wrong};
 use super::{Anchor, Axis, CsvFormat, Epoch, PacketLayout, Profile, RowTime, Scalar};
-use crate::parse::image_time;
+use crate::parse::{image_time, written_time};
 
 /// A packet is read whole; this keeps a mistyped `samples` from asking for all memory.
 const LARGEST_PACKET_BYTES: usize = 16 * 1024 * 1024;
@@ -101,6 +101,9 @@ fn check_row_time(key: &str, time: &RowTime, profile: &Profile) -> Result<(), Wr
     }
     if time.unit.is_some() == time.format.is_some() {
         return wrong(key, "expected either unit or format", "unit for numbers (s, ms, us, ns), format for texts");
+    }
+    if let Some(Err(fact)) = time.format.as_deref().map(|format| written_time::check_pattern(format, false)) {
+        return wrong(format!("{key}.format"), fact, "use strptime directives; docs/devices.md has examples");
     }
     check_wrap(&format!("{key}.wrap_bits"), time.wrap_bits)?;
     check_anchor(&format!("{key}.epoch"), time.epoch, profile)

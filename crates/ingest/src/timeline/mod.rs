@@ -9,6 +9,7 @@ mod clock;
 mod facts;
 mod line;
 mod pieces;
+mod spread;
 mod stamped;
 mod stepper;
 
@@ -16,5 +17,6 @@ pub use block::{Block, Times};
 pub use clock::{Clock, ClockError};
 pub use facts::{ClockJump, LISTED, Span, StreamFacts, Timeline};
 pub use line::Line;
+pub(crate) use spread::{LEARNED_ROWS, SharedStamps, Spreader, StampCounts};
 pub use stamped::{BlockStamp, BlockTimes, SampleTimes};
 pub use stepper::Stepper;

@@ -114,3 +114,50 @@ fn times_as_text() {
     let (samples, _) = read_with(b"t,range\n2025-06-01T14:00:00+0200,1\n", layout(text("%Y-%m-%dT%H:%M:%S%z"), ','));
     assert_eq!(samples, [range(1_748_779_200_000_000_000, 10.0)]);
 }
+
+/// Samples one second apart.
+const TWO_ROWS: &[u8] = b"t,range\n1,2\n2,3\n";
+
+#[test]
+fn lines_that_end_in_a_carriage_return_alone_are_read() {
+    let expected = [range(1_000_000_000, 20.0), range(2_000_000_000, 30.0)];
+    for text in
+        ["t,range\r1,2\r2,3\r", "t,range\r1,2\r2,3", "\u{feff}t,range\r\r1,2\r2,3\r", "t,range\r\r\n1,2\r\r\n2,3\r\r\n"]
+    {
+        let (samples, faults) = read(text.as_bytes(), TimeUnit::S, b',');
+        assert_eq!((&samples[..], &faults[..]), (&expected[..], &[][..]), "{text:?}");
+    }
+    let long: String = std::iter::once("t,range".to_owned())
+        .chain((0..50_000).map(|i| format!("{i},7")))
+        .collect::<Vec<_>>()
+        .join("\r");
+    assert_eq!(read(long.as_bytes(), TimeUnit::S, b',').0.len(), 50_000);
+}
+
+#[test]
+fn text_of_two_bytes_per_character_is_told_as_such() {
+    let text = String::from_utf8_lossy(TWO_ROWS);
+    let little = |mark: bool| {
+        let marks = if mark { vec![0xfeff_u16] } else { vec![] };
+        marks.into_iter().chain(text.encode_utf16()).collect::<Vec<u16>>()
+    };
+    for bytes in [
+        little(true).into_iter().flat_map(u16::to_le_bytes).collect::<Vec<u8>>(),
+        little(true).into_iter().flat_map(u16::to_be_bytes).collect(),
+        little(false).into_iter().flat_map(u16::to_le_bytes).collect(),
+        little(false).into_iter().flat_map(u16::to_be_bytes).collect(),
+    ] {
+        assert_eq!(read(&bytes, TimeUnit::S, b','), (vec![], vec![Fault::Utf16]));
+    }
+}
+
+#[test]
+fn a_column_s_seconds_since_1970_keep_their_fraction_and_zones_by_name_count() {
+    let text =
+        |format: &str| RowTime { column: Some("t".to_owned()), format: Some(format.to_owned()), ..RowTime::default() };
+    let (samples, faults) = read_with(b"t,range\n1748779200.250,1\n", layout(text("%s%.f"), ','));
+    assert_eq!((samples, faults), (vec![range(1_748_779_200_250_000_000, 10.0)], vec![]));
+    let zone = b"t,range\n2025-06-01 14:00:00.5 Europe/Berlin,1\n";
+    let (samples, faults) = read_with(zone, layout(text("%Y-%m-%d %H:%M:%S%.f %Q"), ','));
+    assert_eq!((samples, faults), (vec![range(1_748_779_200_500_000_000, 10.0)], vec![]));
+}

@@ -96,10 +96,19 @@ fn a_name_that_does_not_fit_says_so() {
 
 #[test]
 fn patterns_that_give_no_time_are_refused() {
-    for pattern in ["%Y%m%d", "%Y%m%d_%H%M", "image", "%H%M%S", "%Q%", "%!"] {
+    for pattern in ["%Y%m%d", "%Y%m%d_%H%M", "image", "%H%M%S", "%Q%", "%!", "%s%f", "%Y%m%d_%s", "%Y%m%d %I%M%S"] {
         assert!(check_pattern(pattern).is_err(), "{pattern}");
     }
-    for pattern in ["%Y%m%dT%H%M%S", "%s", "IMG_%Y-%m-%d_%H-%M-%S", "%Y%m%dT%H%M%S%z"] {
+    for pattern in [
+        "%Y%m%dT%H%M%S",
+        "%s",
+        "%s%.f",
+        "%s_%f",
+        "%s.%3f",
+        "%Y%m%d %I%M%S %p",
+        "IMG_%Y-%m-%d_%H-%M-%S",
+        "%Y%m%dT%H%M%S%z",
+    ] {
         assert_eq!(check_pattern(pattern), Ok(()), "{pattern}");
     }
 }
@@ -135,4 +144,53 @@ fn exif_without_a_usable_time_says_so() {
     );
     assert!(error(&jpeg(32, 24, 1)).starts_with("EXIF gives no time"));
     assert!(error(&png(32, 24)).starts_with("EXIF gives no time"));
+}
+
+#[test]
+fn seconds_since_1970_keep_their_fraction() {
+    let expected = Ok(UtcNs(1_614_613_210_750_000_000));
+    for (name, pattern) in [
+        ("1614613210.750000.jpg", "%s%.f"),
+        ("1614613210.75", "%s%.f"),
+        ("1614613210_750.jpg", "%s_%f"),
+        ("cam0-1614613210.750000000.png", "cam0-%s.%9f"),
+    ] {
+        assert_eq!(from_name(name, pattern, &chicago()), expected, "{name}");
+    }
+    // A fraction that the pattern does not describe is not taken for an extension.
+    for (name, pattern) in [("1614613210.750000", "%s"), ("20250601T120000.250Z", "%Y%m%dT%H%M%S")] {
+        assert!(matches!(from_name(name, pattern, &chicago()), Err(TimeError::Name { .. })), "{name}");
+    }
+}
+
+#[test]
+fn a_zone_in_the_name_decides() {
+    let noon = from_name("2025-06-01 14.00.00 Europe/Berlin.jpg", "%Y-%m-%d %H.%M.%S %Q", &chicago());
+    assert_eq!(noon, Ok(UtcNs(NOON_S * SECOND)));
+}
+
+#[test]
+fn the_text_behind_the_seconds_of_exif_counts() {
+    let time = |local: &str| from_exif(&jpeg_with_exif(Some(local), None, None), &chicago());
+    let at = |hours: i64, ms: i64| Ok(UtcNs((NOON_S + hours * 3600) * SECOND + ms * 1_000_000));
+    assert_eq!(time("2025:06:01 12:00:00.25"), at(5, 250));
+    assert_eq!(time("2025:06:01 12:00:00Z"), at(0, 0));
+    assert_eq!(time("2025:06:01 12:00:00+02:00"), at(-2, 0));
+    assert_eq!(time("2025:06:01 12:00:00.125-0330"), Ok(UtcNs((NOON_S + 12_600) * SECOND + 125_000_000)));
+    assert_eq!(time("2025:06:01 12:00:00 "), at(5, 0));
+    for odd in ["PM", ".", "+02h", "+2:00", " UTC", ".25Zx", "+02:00:30", "+99:00"] {
+        let error = time(&format!("2025:06:01 12:00:00{odd}")).unwrap_err().to_string();
+        assert!(error.contains("behind the time"), "{odd}: {error}");
+    }
+}
+
+#[test]
+fn fraction_and_offset_that_stand_twice_must_agree() {
+    let time = |local, subsec, offset| from_exif(&jpeg_with_exif(Some(local), subsec, offset), &chicago());
+    let quarter = Ok(UtcNs(NOON_S * SECOND + 250_000_000));
+    assert_eq!(time("2025:06:01 12:00:00.250Z", Some("25"), Some("+00:00")), quarter);
+    assert!(time("2025:06:01 12:00:00.250", Some("75"), None).is_err());
+    assert!(time("2025:06:01 12:00:00Z", None, Some("+02:00")).is_err());
+    assert!(time("2025:06:01 12:00:00", Some("25x"), None).is_err());
+    assert!(time("2025:06:01 12:00:00", None, Some("+02:00:30")).is_err());
 }

@@ -189,3 +189,19 @@ fn exif_times_in_the_study_s_zone() {
     let noon = NOON_S * SECOND;
     assert_eq!(times, [("images/b.jpg".to_owned(), noon), ("images/a.jpg".to_owned(), noon + 18_000_500_000_000)]);
 }
+
+#[test]
+fn rows_that_share_a_second_are_spread_and_told() {
+    let study = Study::new("csv");
+    let row = |i: i64| format!("{}.0,0.0,1.0,0.0\n", NOON_S + i / 100);
+    let rows: String = (0..1000).map(row).collect();
+    study.write("accel.csv", format!("time_s,x_g,y_g,z_g\n{rows}").as_bytes());
+    study.write("IMAGES/20250601T120005.000Z.JPG", &jpeg(32, 24, 20));
+    let (summary, mut reader) = study.ingest();
+    let of_stamps: Vec<_> = summary.problems.iter().filter(|p| p.place.ends_with("accel.csv")).collect();
+    assert_eq!(of_stamps.iter().map(|p| p.code.code()).collect::<Vec<_>>(), ["stamps_shared"], "{of_stamps:?}");
+    assert!(of_stamps[0].fact.starts_with("100 rows each share a stamp, 1 s apart"), "{}", of_stamps[0].fact);
+    let times: Vec<i64> = samples(&mut reader).iter().map(|sample| sample.time().0 - NOON_S * SECOND).collect();
+    let expected: Vec<i64> = (0..1000).map(|i| i * 10_000_000 + 5_000_000).collect();
+    assert_eq!(times, expected);
+}

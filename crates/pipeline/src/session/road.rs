@@ -174,7 +174,8 @@ fn count(output: &mut SessionOutput, session: &Session<'_>) {
     let status = &mut output.status;
     status.images = output.frames.len();
     status.with_pose = session.frames.iter().filter(|frame| frame.signals.pose.is_some()).count();
-    status.problems.extend(no_pose(session));
+    let no_pose = no_pose(session, &status.problems);
+    status.problems.extend(no_pose);
     status.selected = output.frames.iter().filter(|frame| frame.reason == FrameReason::Selected).count();
     status.sizes = output.results.iter().filter(|row| row.predicted_mm.is_some()).count();
 }
@@ -191,15 +192,21 @@ pub(crate) fn ingest_problem(session: &str, error: &IngestError) -> Problem {
     }
 }
 
-/// The problem of a card none of whose images has a pose: a dead sensor, or a profile that does not fit.
-fn no_pose(session: &Session<'_>) -> Option<Problem> {
+/// The problem of a card none of whose images has a pose: times that do not fit, a dead sensor, or a profile that does not fit.
+fn no_pose(session: &Session<'_>, known: &[Problem]) -> Option<Problem> {
     let reason = session.frames.first()?.signals.reason;
+    let has_other_times = known.iter().any(|problem| problem.code == ProblemCode::NoCommonTime);
+    let remedy = if has_other_times {
+        "correct the times first, as the problem no_common_time says: zone, epoch or the clock's zero"
+    } else {
+        "check the sensors' files, and axes, scales and mount offset of the device profile"
+    };
     session.frames.iter().all(|frame| frame.signals.pose.is_none()).then(|| Problem {
         severity: Severity::Loss,
         stage: Stage::Signals,
         code: ProblemCode::NoImageWithPose,
         place: format!("cards/{}", session.dir.name),
         fact: format!("none of its {} images has a pose; of the first: {}", session.frames.len(), reason.meaning()),
-        remedy: "check the sensors' files, and axes, scales and mount offset of the device profile".to_owned(),
+        remedy: remedy.to_owned(),
     })
 }

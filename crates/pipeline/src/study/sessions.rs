@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use ingest::card::{exact_name_text, name_text};
 use ingest::{nfc, spelled_out};
 use model::{Problem, ProblemCode, Severity, Stage};
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::StudyError;
 use super::misplaced::{self, is_wrong_way_round};
@@ -26,7 +27,24 @@ pub struct SessionSpec {
     /// The camera of the session's marked pictures, if those are not the raw ones.
     pub marks_camera: Option<String>,
     /// The time at which a clock that counts from the device's start was zero.
+    #[serde(deserialize_with = "time_of_toml")]
     pub clock_zero_utc: Option<jiff::Timestamp>,
+}
+
+/// A time as text, or as TOML's own date-time. It must have its offset, as in `2025-06-01T12:00:00Z`.
+fn time_of_toml<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<jiff::Timestamp>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged, expecting = "expected a time with its offset, such as 2025-06-01T12:00:00Z")]
+    enum Written {
+        Text(String),
+        Toml(toml::value::Datetime),
+    }
+    let text = match Written::deserialize(deserializer)? {
+        Written::Text(text) => text,
+        Written::Toml(time) => time.to_string(),
+    };
+    let wrong = |error| format!("'{text}' is no time with its offset, such as 2025-06-01T12:00:00Z: {error}");
+    text.parse().map(Some).map_err(|error: jiff::Error| D::Error::custom(wrong(error)))
 }
 
 /// The folders of one session.
@@ -165,4 +183,49 @@ fn folders(dir: &Path) -> Result<Vec<Folder>, StudyError> {
     }
     folders.sort_by(|a, b| (&a.name, &a.exact).cmp(&(&b.name, &b.exact)));
     Ok(folders)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn clock_zero(value: &str) -> Result<Option<String>, String> {
+        let text = format!("clock_zero_utc = {value}\n");
+        let spec = ingest::config::parse_toml::<SessionSpec>(&text, Path::new("session.toml"));
+        spec.map(|spec| spec.clock_zero_utc.map(|time| time.to_string())).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn the_clock_s_zero_is_text_or_toml_s_own_date_time() {
+        let three = Ok(Some("2021-03-01T15:00:00Z".to_owned()));
+        for value in [
+            "\"2021-03-01T15:00:00Z\"",
+            "2021-03-01T15:00:00Z",
+            "2021-03-01 15:00:00Z",
+            "2021-03-01T09:00:00-06:00",
+            "2021-03-01T15:00:00.000z",
+        ] {
+            assert_eq!(clock_zero(value), three, "{value}");
+        }
+        let fraction = clock_zero("2021-03-01T15:00:00.250+00:00");
+        assert_eq!(fraction, Ok(Some("2021-03-01T15:00:00.25Z".to_owned())));
+    }
+
+    #[test]
+    fn a_time_without_its_offset_or_without_its_day_is_refused() {
+        for value in ["2021-03-01T15:00:00", "2021-03-01", "15:00:00", "1614610800", "\"yesterday\""] {
+            let error = clock_zero(value).unwrap_err();
+            assert!(
+                error.contains("time with its offset") && error.contains("2025-06-01T12:00:00Z"),
+                "{value}: {error}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_date_where_text_is_expected_says_that_quotes_are_missing() {
+        let spec = ingest::config::parse_toml::<SessionSpec>("participant = 2021-03-01\n", Path::new("session.toml"));
+        let error = spec.unwrap_err().to_string();
+        assert!(error.contains("in quotes"), "{error}");
+    }
 }
