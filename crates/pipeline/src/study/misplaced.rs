@@ -79,8 +79,8 @@ pub(super) fn is_wrong_way_round(outer: &str, inner: &str, is_card: impl Fn(&str
 }
 
 fn subfolders(folder: &Path) -> Vec<(String, PathBuf)> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()));
-    let named = entries.filter(|path| path.is_dir() && !path.is_symlink());
+    let entries = std::fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok);
+    let named = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir())).map(|entry| entry.path());
     let mut named: Vec<(String, PathBuf)> =
         named.map(|path| (name_text(path.file_name().unwrap_or_default()), path)).collect();
     named.retain(|(name, _)| !name.starts_with('.'));

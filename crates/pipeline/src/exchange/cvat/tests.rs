@@ -109,3 +109,21 @@ fn tracks_are_refused_and_images_beside_them_are_read() {
     assert_eq!((foreign.images.len(), foreign.refused[0].place.as_str()), (1, "line 2"));
     assert_eq!(foreign.images[0].size_px, None);
 }
+
+/// A size that cannot be read spoils its image, which would else be used without a look at its size; flags may be words.
+#[test]
+fn odd_sizes_and_flags_of_words() {
+    let polyline = r#"<polyline label="bowl/diameter" points="1,2;3,4" outside="false"/>"#;
+    for (width, size_px, fault) in
+        [("64.0", Some([64, 48]), None), ("wide", None, Some("got 'wide'")), ("64.5", None, Some("got '64.5'"))]
+    {
+        let foreign =
+            read(&format!("<image id=\"0\" name=\"a.jpg\" width=\"{width}\" height=\"48\">{polyline}</image>"))
+                .unwrap();
+        let image = &foreign.images[0];
+        assert_eq!(image.size_px, size_px);
+        assert_eq!(image.fault.is_some(), fault.is_some());
+        assert!(image.fault.iter().all(|got| got.contains(fault.unwrap_or_default())), "{:?}", image.fault);
+        assert!(matches!(image.annotations[0].drawn, Drawn::Points { .. }));
+    }
+}
