@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::codes::coded_enum;
+use crate::sigma::{InputSigma, Sensitivity, SizeSigma, proportion};
 use crate::source::{PerSource, SourceCovariance};
 use crate::stats::{ErrorStats, ROBUST_SD, median};
-use crate::uncertainty::{InputSigma, Sensitivity, SizeSigma, proportion};
 
 /// The part of a size that comes from one picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,7 +73,8 @@ impl Share {
     /// The variance that this share does not have in common with others: of its pictures' noise, its marks, and its own
     /// disagreement.
     fn own_variance(&self) -> f64 {
-        let noise: f64 = noise_by_picture(&self.parts).values().map(|(by, variance)| (by.component_mul(by)).dot(variance)).sum();
+        let noise: f64 =
+            noise_by_picture(&self.parts).values().map(|(by, variance)| (by.component_mul(by)).dot(variance)).sum();
         noise + marks_variance(&self.parts) + self.disagreement_mm.powi(2)
     }
 }
@@ -242,7 +243,8 @@ pub fn parts_of_sum(shares: &[Share], weights: &[f64]) -> Vec<Part> {
 pub fn combined_sigma(parts: &[Part]) -> SizeSigma {
     let by_source: PerSource = parts.iter().map(|part| part.sensitivity.by_source).sum();
     let covariance = parts.first().map(|part| part.inputs.common()).unwrap_or_default();
-    let noise = noise_by_picture(parts).values().map(|(by, variance)| by.component_mul(by).component_mul(variance)).sum();
+    let noise =
+        noise_by_picture(parts).values().map(|(by, variance)| by.component_mul(by).component_mul(variance)).sum();
     SizeSigma::from_parts(&by_source, &covariance, noise, marks_variance(parts).sqrt())
 }
 
@@ -279,12 +281,7 @@ fn weighted_mean(shares: &[Share], weights: &[f64]) -> f64 {
 
 /// How far each share is off from the others, in its own standard uncertainties. Sources that they have in common count only as
 /// far as they move the shares differently.
-fn standardised_residuals(
-    shares: &[Share],
-    weights: &[f64],
-    value_mm: f64,
-    covariance: &SourceCovariance,
-) -> Vec<f64> {
+fn standardised_residuals(shares: &[Share], weights: &[f64], value_mm: f64, covariance: &SourceCovariance) -> Vec<f64> {
     let mean: PerSource = shares.iter().zip(weights).map(|(share, w)| share.by_source() * *w).sum();
     let residual = |share: &Share| {
         let difference = share.by_source() - mean;

@@ -4,9 +4,9 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::fusion::{Part, Share, combined_sigma, parts_of_sum};
 use crate::marks::ObjectMarks;
-use crate::measure::{HeightLine, MeasureError, Numbered, camera_height, possible_height};
+use crate::measure::{HeightLine, Judge, MeasureError, Numbered, camera_height, possible_height};
 use crate::sensed::Sensed;
-use crate::uncertainty::{InputSigma, Sensitivity, SizeSigma};
+use crate::sigma::{InputSigma, Sensitivity, SizeSigma};
 use crate::view::View;
 
 /// A wall as one picture shows it: on Z = 0 its foot is at the distance a from the point under the camera, and its rim at the
@@ -38,11 +38,11 @@ impl Sight {
     }
 }
 
-/// The walls that the height lines on one picture show, one for each line.
+/// The walls that the height lines on one picture show, one for each line that does not contradict the others.
 ///
 /// # Errors
-/// [`MeasureError`] when an end of a line has no place on the table.
-pub fn sights(view: &View, marks: &ObjectMarks) -> Result<Vec<Sight>, MeasureError> {
+/// [`MeasureError`] when an end of a line has no place on the table, and when lines contradict each other.
+pub fn sights(view: &View, marks: &ObjectMarks, inputs: &InputSigma) -> Result<Vec<Sight>, MeasureError> {
     let numbered = Numbered::from_marks(marks);
     let sight = |line: HeightLine| {
         let [foot, rim] = line.distances(view, numbered.points)?;
@@ -58,7 +58,8 @@ pub fn sights(view: &View, marks: &ObjectMarks) -> Result<Vec<Sight>, MeasureErr
             ),
         })
     };
-    numbered.height_lines().map(sight).collect()
+    let agreeing = numbered.agreeing_height_lines(view, &Judge::new(inputs))?;
+    agreeing.into_iter().map(sight).collect()
 }
 
 /// The reason why several pictures do not give a height together.

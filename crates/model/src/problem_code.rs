@@ -89,6 +89,9 @@ coded_enum! {
         BaseUnderCamera = "base_under_camera": "the base lies under the camera, where a height cannot be told",
         NoLength = "no_length": "two marked ends are the same point",
         NotFourCorners = "not_four_corners": "a rectangle's outline does not have four corners",
+        MarksDisagree = "marks_disagree": "several marks of one size on one picture contradict each other; none of them is used",
+        MarkLeftOut = "mark_left_out": "a mark contradicts others of the same size, or points lie far off their outline; they are not used",
+        OutlineNotRound = "outline_not_round": "an outline that should be a circle is none",
         SizesDisagree = "sizes_disagree": "the sizes of one thing by several images or raters differ by more than their uncertainties allow",
         BadMcap = "bad_mcap": "the recording in the work folder is not what was written there",
         McapNotWritten = "mcap_not_written": "a recording could not be written to the work folder",
@@ -196,6 +199,10 @@ impl ProblemCode {
             }
             Self::PictureNotSearched => "look at the picture; mark it by hand, or copy it from the card again",
             Self::MarksMisplaced => "move them to marks/RATER/SESSION by the command that is given",
+            Self::MarksDisagree | Self::MarkLeftOut => "delete the mark or the points that slipped, and run again",
+            Self::OutlineNotRound => {
+                "correct the points; outline one edge only, and name objects that are not round so in objects.csv"
+            }
             Self::SizesDisagree => {
                 "look at the marks that `flags` names as outliers; without one, at all of them, or at [uncertainty]"
             }

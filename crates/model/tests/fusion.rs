@@ -2,8 +2,9 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use aim_batch_model::{
-    Camera, Doubt, Estimate, Fused, InputSigma, JointError, LensModel, Mark, Measured, Method, ObjectMarks, PerSource,
-    Part, Pose, Quantity, Sensitivity, Share, Sight, Sights, Source, Verdict, View, best_of, fuse, joint_height, sights,
+    Camera, Doubt, Estimate, Fused, InputSigma, JointError, LensModel, Mark, Measured, Method, ObjectMarks, Part,
+    PerSource, Pose, Quantity, Sensitivity, Share, Sight, Sights, Source, Verdict, View, best_of, fuse, joint_height,
+    sights,
 };
 use nalgebra::Point3;
 use proptest::prelude::*;
@@ -98,7 +99,11 @@ fn intervals_cover_and_verdicts_hold() {
 /// A size that is `value_mm` large, with errors of pose, range and camera in proportion to it, as those of real sizes are.
 fn in_proportion(value_mm: f64, picture: usize, marks_mm_per_px: f64) -> Share {
     let by_source = share(value_mm, picture).parts[0].sensitivity.by_source * (value_mm / 200.0);
-    Share::of_picture(value_mm, Part { sensitivity: Sensitivity { by_source, marks_mm_per_px }, inputs: INPUTS, picture }, 1.0)
+    Share::of_picture(
+        value_mm,
+        Part { sensitivity: Sensitivity { by_source, marks_mm_per_px }, inputs: INPUTS, picture },
+        1.0,
+    )
 }
 
 /// Three raters see 250 to 270 mm, and one slipped. By inverse variances in mm the slip would have ten times the
@@ -180,7 +185,7 @@ fn sight(view: &View) -> Vec<Sight> {
     let end = |y: f64, z: f64| view.pixel_of(Point3::new(0.0, y, z)).unwrap();
     let distance = 560.0 * view.pose().pitch_rad().cos();
     let line = Mark::Line { quantity: Quantity::Height, ends_px: [end(distance, 0.0), end(distance + 24.0, 60.0)] };
-    sights(view, &ObjectMarks { object: "bowl".to_owned(), marks: vec![line] }).unwrap()
+    sights(view, &ObjectMarks { object: "bowl".to_owned(), marks: vec![line] }, &INPUTS).unwrap()
 }
 
 fn pictures(pitches_deg: &[f64]) -> Vec<Sights> {
@@ -204,7 +209,7 @@ fn pictures_from_one_angle_say_nothing() {
 }
 
 fn candidate(method: Method, total_mm: f64, doubts: Vec<Doubt>) -> Estimate {
-    let measured = Measured { quantity: Quantity::Height, predicted_mm: 60.0, plane_z_mm: 0.0, marks: 1 };
+    let measured = Measured::by_one_mark(Quantity::Height, 60.0, 0.0);
     let sensitivity = Sensitivity { by_source: PerSource::zeros(), marks_mm_per_px: total_mm };
     let sigma = sensitivity.sigma(&InputSigma { mark_px: 1.0, ..InputSigma::NONE });
     Estimate { method, measured, sensitivity, sigma, wall_slope: None, doubts }

@@ -15,9 +15,8 @@ const STATISTIC: &str = "The sizes behind each of these rows differ by more than
 pub(super) fn table(rows: &[ResultRow]) -> Option<Table> {
     let fused = || rows.iter().filter(|row| row.level != Level::Frame);
     let has_best = fused().any(|row| row.method == Method::Best);
-    let counts = |row: &&ResultRow| {
-        row.consistency == Some(Verdict::Inconsistent) && (!has_best || row.method == Method::Best)
-    };
+    let counts =
+        |row: &&ResultRow| row.consistency == Some(Verdict::Inconsistent) && (!has_best || row.method == Method::Best);
     let rows: Vec<&ResultRow> = fused().filter(counts).collect();
     let more = rows.len().saturating_sub(MOST_ROWS);
     let remark = format!("{more} more are not shown: filter the measurements by consistency.");

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use model::{
-    Container, Estimate, InputSigma, JointHeight, Method, Part, Quantity, Share, Sights, best_of, combined_sigma, estimate,
-    fuse, joint_height, sights,
+    Container, Estimate, InputSigma, JointHeight, Method, Part, Quantity, Share, Sights, best_of, combined_sigma,
+    estimate, fuse, joint_height, sights,
 };
 
 use super::scene::Thing;
@@ -100,7 +100,7 @@ fn joint(thing: &Thing, images: &[Image], sigma: &InputSigma) -> Vec<Trial> {
         return Vec::new();
     }
     let sights_of = |(picture, image): (usize, &Image)| {
-        Some(Sights { walls: sights(&image.view, &image.marks).ok()?, inputs: *sigma, picture })
+        Some(Sights { walls: sights(&image.view, &image.marks, sigma).ok()?, inputs: *sigma, picture })
     };
     let pictures: Vec<Sights> = images.iter().enumerate().filter_map(sights_of).collect();
     let Ok(height) = joint_height(&pictures) else { return Vec::new() };

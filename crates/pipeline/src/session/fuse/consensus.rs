@@ -22,7 +22,8 @@ pub(super) fn rows(of_rater: &BTreeMap<Key<'_>, Vec<Row>>) -> Vec<Vec<Row>> {
 fn of_size(raters: &[&[Row]]) -> Vec<Row> {
     let methods: BTreeSet<Method> = raters.iter().flat_map(|rows| rows.iter().map(|row| row.row.method)).collect();
     let of_method = |method: Method| {
-        let rows: Vec<&Row> = raters.iter().filter_map(|rows| rows.iter().find(|row| row.row.method == method)).collect();
+        let rows: Vec<&Row> =
+            raters.iter().filter_map(|rows| rows.iter().find(|row| row.row.method == method)).collect();
         consensus(&rows)
     };
     let best: Vec<&Row> = raters.iter().filter_map(|rows| best_row(rows)).collect();

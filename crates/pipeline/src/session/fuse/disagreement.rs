@@ -24,7 +24,8 @@ fn problem(session: &str, row: &ResultRow) -> Option<Problem> {
         Level::Consensus => ("raters", "all raters".to_owned()),
         _ => ("images", rater.clone()),
     };
-    let off: Vec<&str> = row.flags.split(',').filter_map(|flag| Some(flag.strip_prefix("outlier")?.split_once(':')?.1)).collect();
+    let off: Vec<&str> =
+        row.flags.split(',').filter_map(|flag| Some(flag.strip_prefix("outlier")?.split_once(':')?.1)).collect();
     let off = if off.is_empty() { "none alone is off".to_owned() } else { format!("off: {}", off.join(", ")) };
     Some(Problem {
         severity: Severity::Note,

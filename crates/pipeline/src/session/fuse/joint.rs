@@ -32,7 +32,7 @@ fn of_bowl(marked: &[&Marked<'_>], measurements: &[Measurement]) -> Option<Vec<R
     let seen: Vec<_> = marked
         .iter()
         .filter_map(|m| {
-            let walls = sights(&m.view(Method::Joint)?, m.marks).ok().filter(|walls| !walls.is_empty())?;
+            let walls = sights(&m.view(Method::Joint)?, m.marks, &m.inputs).ok().filter(|walls| !walls.is_empty())?;
             Some((*m, Sights { walls, inputs: m.inputs, picture: m.number }))
         })
         .collect();

@@ -14,8 +14,8 @@ mod tests;
 use std::collections::{BTreeMap, BTreeSet};
 
 use model::{
-    Doubt, ErrorStats, Fused, Level, Method, Part, Quantity, ResultRow, Share, SizeSigma, Verdict, fuse as fuse_shares, median,
-    parts_of_sum,
+    Doubt, ErrorStats, Fused, Level, Method, Part, Quantity, ResultRow, Share, SizeSigma, Verdict, fuse as fuse_shares,
+    median, parts_of_sum,
 };
 
 pub(super) use disagreement::problems as disagreements;
@@ -135,8 +135,7 @@ fn groups_owned(measurements: &[Measurement]) -> BTreeMap<(String, String, Quant
 
 fn share(measurement: &Measurement) -> Option<Share> {
     let estimate = measurement.estimate.as_ref()?;
-    let part =
-        Part { sensitivity: estimate.sensitivity, inputs: measurement.inputs, picture: measurement.picture };
+    let part = Part { sensitivity: estimate.sensitivity, inputs: measurement.inputs, picture: measurement.picture };
     Some(Share::of_picture(estimate.measured.predicted_mm, part, measurement.penalty))
 }
 
@@ -170,7 +169,8 @@ impl Members<'_> {
     /// The row of all of them together; `outlier_flag` gives the flag that names a row which is off.
     fn fused(self, level: Level, outlier_flag: impl Fn(&ResultRow) -> String) -> Option<Row> {
         let fused = fuse_shares(&self.shares)?;
-        let weighted = |(shared, w): (&Vec<(f64, f64)>, &f64)| shared.iter().map(|(v, mm)| (v * w, *mm)).collect::<Vec<_>>();
+        let weighted =
+            |(shared, w): (&Vec<(f64, f64)>, &f64)| shared.iter().map(|(v, mm)| (v * w, *mm)).collect::<Vec<_>>();
         let shared: Vec<(f64, f64)> = self.shared.iter().zip(&fused.weights).flat_map(weighted).collect();
         let mark_px = self.shares.first()?.parts.first()?.inputs.mark_px;
         let sigma = fused_sigma(&fused.sigma, shared.iter().copied(), mark_px);

@@ -33,7 +33,7 @@ fn measurement(rater: &str, image: &str, predicted_mm: f64, selected: bool) -> M
     by_source[Source::RangeScale.index()] = 200.0;
     let sensitivity = Sensitivity { by_source, marks_mm_per_px: 1.0 };
     let sigma = sensitivity.sigma(&INPUTS);
-    let measured = Measured { quantity: Quantity::Diameter, predicted_mm, plane_z_mm: 0.0, marks: 1 };
+    let measured = Measured::by_one_mark(Quantity::Diameter, predicted_mm, 0.0);
     let estimate = Estimate { method: Method::Ray, measured, sensitivity, sigma, wall_slope: None, doubts: Vec::new() };
     Measurement {
         row: with_sigma(row(rater, image, Some(predicted_mm), selected), &sigma),
@@ -108,8 +108,7 @@ fn raters_stay_apart_and_are_joined_in_a_consensus_that_names_who_is_off() {
 /// A rater with many images has one vote, as a rater with one image has.
 #[test]
 fn raters_count_alike_in_a_consensus() {
-    let mut all: Vec<_> =
-        ["a", "b", "c", "d"].map(|image| measurement("A", image, 200.0, true)).into_iter().collect();
+    let mut all: Vec<_> = ["a", "b", "c", "d"].map(|image| measurement("A", image, 200.0, true)).into_iter().collect();
     all.push(measurement("B", "a", 203.0, true));
     let consensus = fused(&mut all).pop().unwrap();
     // 6 mm of range are common; of its own A has 1 mm of marks, B 2 mm: weights by 1 / 37 and 1 / 40.
