@@ -27,10 +27,10 @@ fn row(rater: &str, image: &str, predicted_mm: Option<f64>, selected: bool) -> R
     }
 }
 
-/// A size of 200 mm is wrong by 3 % of range in all images alike, and by 2 mm of marks in each.
+/// A size is wrong by 3 % in all images alike, through the range, and by 2 mm of marks in each.
 fn measurement(rater: &str, image: &str, predicted_mm: f64, selected: bool) -> Measurement {
     let mut by_source = PerSource::zeros();
-    by_source[Source::RangeScale.index()] = 200.0;
+    by_source[Source::RangeScale.index()] = predicted_mm;
     let sensitivity = Sensitivity { by_source, marks_mm_per_px: 1.0 };
     let sigma = sensitivity.sigma(&INPUTS);
     let measured = Measured::by_one_mark(Quantity::Diameter, predicted_mm, 0.0);
@@ -64,9 +64,9 @@ fn selected_images_with_what_is_common_kept() {
     assert_eq!((row.level, &row.image, row.time_utc, row.frames), (Level::Fused, &None, None, 2));
     assert!((row.spread_mm.unwrap() - 8.0_f64.sqrt()).abs() < 1e-12);
     assert!((row.sigma_marks_mm.unwrap() - 2.0 / 2.0_f64.sqrt()).abs() < 1e-12, "marks are independent");
-    assert!((row.sigma_range_mm.unwrap() - 6.0).abs() < 1e-12, "the range's scale is common");
+    assert!((row.sigma_range_mm.unwrap() - 0.03 * 206.0).abs() < 1e-12, "the range's scale is common");
     assert_eq!((row.sigma_common_mm, row.sigma_pitch_mm), (row.sigma_range_mm, Some(0.0)));
-    assert!((row.sigma_mm.unwrap() - 38.0_f64.sqrt()).abs() < 1e-12);
+    assert!((row.sigma_mm.unwrap() - (0.03_f64 * 206.0).hypot(2.0_f64.sqrt())).abs() < 1e-12);
     // 4 mm apart, where 2 mm of SD each are known: chi-square 16 / 8.
     assert!((row.chi_squared.unwrap() - 2.0).abs() < 1e-9 && row.chi_squared_degrees == Some(1));
     assert_eq!(row.consistency, Some(Verdict::Consistent));
@@ -111,8 +111,9 @@ fn raters_count_alike_in_a_consensus() {
     let mut all: Vec<_> = ["a", "b", "c", "d"].map(|image| measurement("A", image, 200.0, true)).into_iter().collect();
     all.push(measurement("B", "a", 203.0, true));
     let consensus = fused(&mut all).pop().unwrap();
-    // 6 mm of range are common; of its own A has 1 mm of marks, B 2 mm: weights by 1 / 37 and 1 / 40.
-    assert!((consensus.predicted_mm.unwrap() - (200.0 / 37.0 + 203.0 / 40.0) / (1.0 / 37.0 + 1.0 / 40.0)).abs() < 0.01);
+    // 3 % of 201.5 mm are common, 36.5 mm^2; of its own A has 1 mm of marks, B 2 mm.
+    let (a, b) = (1.0 / 37.5, 1.0 / 40.5);
+    assert!((consensus.predicted_mm.unwrap() - (200.0 * a + 203.0 * b) / (a + b)).abs() < 0.01);
     assert_eq!((consensus.level, consensus.frames), (Level::Consensus, 4));
 }
 
