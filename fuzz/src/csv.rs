@@ -2,7 +2,7 @@
 //!
 //! Input: 8 bytes of settings (in the order in which they are taken below), then the file.
 
-use ingest::parse::{Converter, CsvLayout, CsvSamples, Fault};
+use ingest::parse::{Converter, CsvLayout, CsvSamples, Fault, NoTargetReadings};
 use ingest::profile::{Axis, CsvFormat, Epoch, RowTime, Step, TimeUnit};
 use model::UtcNs;
 
@@ -34,7 +34,7 @@ pub fn csv(input: &[u8]) -> usize {
         flag(0),
         flag(1),
         time,
-        CsvFormat { delimiter, skip_lines, header: flag(0), decimal_comma: delimiter == ';' },
+        CsvFormat { delimiter, skip_lines, header: flag(0), decimal_comma: delimiter == ';', ..CsvFormat::default() },
     );
     let rate_hz = 1.0 + f64::from(rate_code);
     let mut clocked = Clocked::new(Setting {
@@ -90,10 +90,11 @@ fn layout(header: bool, is_range: bool, time: RowTime, format: CsvFormat) -> Csv
         if header { names } else { numbers }.iter().map(|name| (*name).to_owned()).collect()
     };
     let (values, converter) = if is_range {
-        (named(&["range"], &["#2"]), Converter::Range { mm_per_count: 1.0 })
+        (named(&["range"], &["#2"]), Converter::Range { mm_per_count: 1.0, no_target: NoTargetReadings::default() })
     } else {
         let axes = [Axis::PlusX, Axis::MinusZ, Axis::PlusY];
-        let converter = Converter::Acceleration { g_per_count: 0.001, zero_g_counts: [1.0, 2.0, 3.0], axes };
+        let converter =
+            Converter::Acceleration { g_per_count: 0.001, zero_g_counts: [1.0, 2.0, 3.0], axes, full_scale_g: None };
         (named(&["x", "y", "z"], &["#2", "#3", "#4"]), converter)
     };
     CsvLayout { format, time, values, extra: named(&["optical"], &["#5"]), converter }

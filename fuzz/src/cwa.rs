@@ -19,7 +19,7 @@ pub fn cwa(input: &[u8]) -> usize {
 fn read(file: &[u8], zone: TimeZone, fineness: u8) -> usize {
     let told = check_account(file);
     let axes = [Axis::PlusX, Axis::MinusZ, Axis::PlusY];
-    let converter = Converter::Acceleration { g_per_count: 1.0, zero_g_counts: [0.0; 3], axes };
+    let converter = Converter::Acceleration { g_per_count: 1.0, zero_g_counts: [0.0; 3], axes, full_scale_g: None };
     let extra = ["gyro_x", "gyro_z"].map(str::to_owned).to_vec();
     let mut clocked = Clocked::new(Setting {
         epoch: Epoch::LocalAtStart,

@@ -127,7 +127,16 @@ fn profile(layout: &PacketLayout, is_range: bool, rate_hz: f64) -> Profile {
         images: None,
     };
     if is_range {
-        profile.range = Some(RangeStream { files, rate_hz, gap_s: None, mm_per_count: 1.0, extra, packets, csv: None });
+        profile.range = Some(RangeStream {
+            files,
+            rate_hz,
+            gap_s: None,
+            mm_per_count: 1.0,
+            no_target: None,
+            extra,
+            packets,
+            csv: None,
+        });
     } else {
         profile.acceleration = Some(AccelerationStream {
             files,
@@ -135,6 +144,7 @@ fn profile(layout: &PacketLayout, is_range: bool, rate_hz: f64) -> Profile {
             gap_s: None,
             g_per_count: 0.001,
             zero_g_counts: [1.0, 2.0, 3.0],
+            full_scale_g: None,
             axes: [Axis::PlusX, Axis::MinusZ, Axis::PlusY],
             extra,
             packets,

@@ -88,7 +88,15 @@ impl Maker {
         let from = self.next_value;
         self.next_value += u32::try_from(len).expect("a block is small");
         let values = (from..self.next_value).map(|value| f32::from_bits(0x3f80_0000 + value)).collect();
-        RawBlock { stamps, sequence, channels: vec![values], extra: Vec::new(), missing: 0, declared_rate_hz: None }
+        RawBlock {
+            stamps,
+            sequence,
+            channels: vec![values],
+            extra: Vec::new(),
+            missing: 0,
+            impossible: None,
+            declared_rate_hz: None,
+        }
     }
 }
 

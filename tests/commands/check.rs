@@ -7,8 +7,8 @@ use std::process::Output;
 use serde_json::Value;
 
 use crate::support::{
-    Shot, StudyFolder, assert_exit, files_below, label_me, line, published_bench, run, small_camera, small_picture,
-    stderr, stdout,
+    Shot, StudyFolder, assert_exit, copy_folder, files_below, label_me, line, published_bench, run, small_camera,
+    small_picture, stderr, stdout,
 };
 
 const OBJECTS: &str = "object,kind,shape,true_diameter_mm\nplate,plate,circle,200\nbowl,bowl,circle,\n";
@@ -192,4 +192,45 @@ fn a_study_that_asks_for_the_lag_is_checked_without_it() {
     let output = check(study.path(), &["--json"]);
     assert_exit(&output, 0);
     assert!(!stdout(&output).contains("image_lag") && !stdout(&output).contains("bad_mcap"));
+}
+
+/// The sample study with one mistake in its set-up, and the first session's problem of that code.
+#[track_caller]
+fn mistaken(code: &str, change: impl FnOnce(&Path)) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let study = folder.path().join("study");
+    copy_folder(&published_bench(), &study);
+    change(&study);
+    let output = check(&study, &["--json"]);
+    assert_exit(&output, 3);
+    let document = json(&output);
+    let problems = document["sessions"].as_array().unwrap().iter().flat_map(|s| s["problems"].as_array().unwrap());
+    let told = problems
+        .filter(|problem| problem["code"] == code)
+        .map(|problem| format!("{}; {}", problem["fact"], problem["remedy"]));
+    told.collect::<Vec<_>>().first().unwrap_or_else(|| panic!("no {code}: {document}")).clone()
+}
+
+fn built_in_profile(study: &Path, from: &str, to: &str) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../ingest/profiles/aim2-packets.toml");
+    let text = std::fs::read_to_string(root).unwrap();
+    assert!(text.contains(from), "{text}");
+    std::fs::create_dir_all(study.join("devices")).unwrap();
+    std::fs::write(study.join("devices/aim2-packets.toml"), text.replace(from, to)).unwrap();
+}
+
+#[test]
+fn implausible_set_ups_are_told_with_their_likely_cause() {
+    let sign = |study: &Path| built_in_profile(study, "mount_pitch_deg = 21.0", "mount_pitch_deg = -21.0");
+    let told = mistaken("implausible_pose", sign);
+    assert!(told.contains("with 21 instead of -21 degrees"), "{told}");
+    let swapped = |study: &Path| built_in_profile(study, "[\"+x\", \"+y\", \"+z\"]", "[\"+y\", \"+x\", \"+z\"]");
+    let told = mistaken("implausible_pose", swapped);
+    assert!(told.contains("right and down are swapped"), "{told}");
+    let unit = |study: &Path| built_in_profile(study, "mm_per_count = 1.0", "mm_per_count = 0.2");
+    let told = mistaken("implausible_range", unit);
+    assert!(told.contains("cm, not mm"), "{told}");
+    let unit = |study: &Path| built_in_profile(study, "g_per_count = 0.001 ", "g_per_count = 0.0001 ");
+    let told = mistaken("implausible_gravity", unit);
+    assert!(told.contains("10 times too small"), "{told}");
 }

@@ -177,6 +177,53 @@ fn real_facts(set: &str, file: &str, profile: &str) -> Option<Value> {
     Some(facts(&output, None))
 }
 
+/// A still export of Pupil's glasses whose IMU looks 30 degrees down: the scene camera of Neon looks 12 degrees further down.
+fn pupil_facts(profile: &str, header: &str, row: impl Fn(i64, [f64; 3]) -> String, g: [f64; 3]) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let (card, mcap) = (folder.path().join("card"), folder.path().join("x.mcap"));
+    std::fs::create_dir(&card).unwrap();
+    let rows: String = (0..2200).map(|i| row(1_748_779_200_000_000_000 + i * 9_090_909, g)).collect();
+    std::fs::write(card.join("imu.csv"), format!("{header}\n{rows}")).unwrap();
+    let output = run(["ingest", card.to_str().unwrap(), "-o", mcap.to_str().unwrap(), "--profile", profile]);
+    assert_exit(&output, 3); // there is no range sensor, and no camera
+    let output = inspect(&mcap, &["--json"]);
+    assert_exit(&output, 0);
+    facts(&output, None)
+}
+
+#[test]
+fn every_export_of_pupil_s_glasses_is_read_and_has_the_camera_s_pitch() {
+    let cloud = |gyro: &str, g: &str, rest: &str| {
+        let axes = |name: &str, unit: &str| ["x", "y", "z"].map(|axis| format!("{name} {axis} [{unit}]")).join(",");
+        format!("section id,recording id,timestamp [ns],{},{},{rest}", axes("gyro", gyro), axes("acceleration", g))
+    };
+    let of_cloud = |ns: i64, [x, y, z]: [f64; 3]| format!("s,r,{ns},0.1,-0.1,0,{x},{y},{z},0,-30\n");
+    let of_native = |ns: i64, [x, y, z]: [f64; 3]| format!("{ns},0.1,-0.1,0,{x},{y},{z}\n");
+    let (sin, cos) = 30_f64.to_radians().sin_cos();
+    let native = |z: &str| format!("timestamp_ns,gyro_x,gyro_y,gyro_z(deg/s),accel_x,accel_y,{z}");
+    let neon = [0.0, -sin, cos]; // x right, y forward, z up
+    let neon_exports = [
+        pupil_facts("pupil-neon", &cloud("deg/s", "g", "roll [deg],pitch [deg]"), of_cloud, neon),
+        pupil_facts("pupil-neon", &cloud("deg/s", "G", "roll,pitch"), of_cloud, neon),
+        pupil_facts("pupil-neon", &native("accel_z(g)"), of_native, neon),
+        pupil_facts("pupil-neon", &native("accel_z"), of_native, neon),
+    ];
+    let invisible = [0.0, -cos, -sin]; // x right, y down, z forward
+    let invisible = pupil_facts("pupil-invisible", &cloud("deg/s", "G", "roll,pitch"), of_cloud, invisible);
+    let seen = neon_exports.iter().map(|facts| (facts, 42)).chain([(&invisible, 30)]);
+    for (facts, pitch_deg) in seen {
+        assert_eq!(
+            (&facts["acceleration"]["clock"]["samples"], facts["extra"].as_array().unwrap().len()),
+            (&2200.into(), 3)
+        );
+        let pitch = &facts["acceleration"]["pitch_deg"];
+        let counts: Vec<u64> = pitch["counts"].as_array().unwrap().iter().map(|n| n.as_u64().unwrap()).collect();
+        let most = (0..counts.len()).max_by_key(|bin| counts[*bin]).unwrap();
+        let from_deg = pitch["from"].as_f64().unwrap() + most as f64 * pitch["bin_width"].as_f64().unwrap();
+        assert!((from_deg..from_deg + pitch["bin_width"].as_f64().unwrap()).contains(&f64::from(pitch_deg)), "{pitch}");
+    }
+}
+
 #[test]
 fn real_glasses() {
     let Some(facts) = real_facts("imu_neon_glasses", "demo_recording_ps1.csv", "pupil-neon") else { return };
@@ -233,4 +280,25 @@ fn a_real_range_sensor() {
     assert_near(&range["sd_mm"], 2.15, 0.005);
     assert_eq!((range["least_mm"].as_f64(), range["greatest_mm"].as_f64()), (Some(65.0), Some(84.0)));
     assert!(range["repeated_samples"].as_u64().unwrap() > 10_000, "{range}");
+}
+
+/// The range is the median of the readings that are ranges, whatever a driver writes for those that are none.
+#[test]
+fn readings_without_a_target_are_no_loss() {
+    for none in ["None", "65535", "-1", "8191", "inf"] {
+        let study = StudyFolder::new("", OBJECTS, &small_camera());
+        study.session("s", &[shot(55.0, 512.0)]);
+        let path = study.path().join("cards/s/range.csv");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let other = |(i, line): (usize, &str)| match i % 3 {
+            1 => format!("{},{none}\n", line.split(',').next().unwrap()),
+            _ => format!("{line}\n"),
+        };
+        std::fs::write(&path, text.lines().enumerate().map(other).collect::<String>()).unwrap();
+        let out = study.path().join("out/results.parquet");
+        let output = run(["run", study.path().to_str().unwrap(), "--out", out.to_str().unwrap()]);
+        assert_exit(&output, 0);
+        let frames = report::read_frames(&out.with_file_name("frames.parquet")).unwrap();
+        assert_eq!(frames[0].range_mm, Some(512.0), "{none}");
+    }
 }

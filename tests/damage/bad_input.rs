@@ -170,7 +170,7 @@ fn bad_session_toml() {
 /// Marks on a corrected picture are of another camera; with a session's own camera that camera must be named too.
 #[test]
 fn a_session_camera_needs_its_own_marks_camera_where_the_study_has_one() {
-    let corrected = CAMERA.replace("width_px = 64", "width_px = 128");
+    let corrected = CAMERA.replace("width_px = 64", "width_px = 128").replace("[32.0,", "[64.0,");
     let study = StudyFolder::new("[marks]\ncamera = \"corrected\"\n", OBJECTS, CAMERA);
     study.write("devices/corrected.toml", &corrected);
     study.session("good", &[shot()]);

@@ -146,3 +146,25 @@ fn a_sensor_file_of_ten_gigabytes_of_zeros() {
     assert_eq!(told.losses()[0], "zero_blocks");
     assert_eq!(told.reasons, [Selected; IMAGES]);
 }
+
+/// A logger that writes a filler once a second, on one axis or on all, must not make every image 'moving'.
+#[test]
+fn accelerations_that_no_sensor_has() {
+    for (filler, axes) in [(-9999_i16, 1), (-9999, 3), (32_767, 3), (i16::MIN, 1)] {
+        let study = DamagedStudy::new();
+        let mut bytes = std::fs::read(study.file(ACC)).unwrap();
+        for packet in bytes.chunks_exact_mut(ACC_PACKET) {
+            for axis in 0..axes {
+                let at = 12 + axis * 64 * 2 + 2 * 5;
+                packet[at..at + 2].copy_from_slice(&filler.to_le_bytes());
+            }
+        }
+        std::fs::write(study.file(ACC), bytes).unwrap();
+        let told = study.run();
+        assert_eq!((told.exit, told.losses()), (3, vec!["impossible_acceleration"]), "{filler}");
+        let fact = told.fact("impossible_acceleration");
+        assert!(fact.starts_with("60 of 3840 samples") && fact.contains("at byte 0, sample 5"), "{fact}");
+        assert_eq!(told.reasons, [Selected; IMAGES], "{filler}");
+        assert!(told.frames.iter().all(|frame| (frame.pitch_deg.unwrap() - 55.0).abs() < 0.1), "{filler}");
+    }
+}

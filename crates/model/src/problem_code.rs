@@ -41,6 +41,7 @@ coded_enum! {
         SamplesWithoutTime = "samples_without_time": "samples have no time that can be told; they are lost",
         NoSamples = "no_samples": "the file holds no sample",
         TextEncoding = "text_encoding": "a log is UTF-16 text, and is not read",
+        ImpossibleAcceleration = "impossible_acceleration": "samples are accelerations that the sensor cannot give; they are left out, and what is around them is used",
         Gaps = "gaps": "there are holes between packets; nothing is bridged",
         DuplicatePackets = "duplicate_packets": "packets are there twice, and are used once",
         PacketsOutOfOrder = "packets_out_of_order": "packets stand in another order than their times; they are put in order",
@@ -65,6 +66,11 @@ coded_enum! {
         GravityCalibrationApplied = "gravity_calibration_applied": "offsets and scales of the accelerometer were worked out and applied",
         GravityCalibrationRefused = "gravity_calibration_refused": "the accelerometer could not be calibrated from this recording; samples are used as recorded",
         NoImageWithPose = "no_image_with_pose": "no image of the session has a pose, so nothing can be measured",
+        NoImageSelected = "no_image_selected": "no image of the session lies in the window of pitch, so there are no fused sizes",
+        ImplausiblePose = "implausible_pose": "the session's median pitch or roll is one that no wearer has, or not that of its bench",
+        ImplausibleRange = "implausible_range": "the session's median range is not that from a face to a table",
+        ImplausibleGravity = "implausible_gravity": "gravity's median length is not 1 g",
+        ImplausibleCamera = "implausible_camera": "the camera's focal length, principal point or lens can hardly be",
         MarksUnreadable = "marks_unreadable": "the file system does not let a file or folder of marks be read",
         MarksTooLarge = "marks_too_large": "a file of marks is larger than any can be",
         MarksMalformed = "marks_malformed": "a file of marks is no LabelMe JSON",
@@ -144,6 +150,9 @@ impl ProblemCode {
             Self::SamplesWithoutTime => "correct the time that the profile declares",
             Self::NoSamples => "nothing, if the device recorded nothing; else copy the file again",
             Self::TextEncoding => "save the file as UTF-8",
+            Self::ImpossibleAcceleration => {
+                "none needed if the logger writes them for 'no value'; else correct g_per_count or full_scale_g in the profile"
+            }
             Self::Gaps => "none needed: images in a gap have no pose",
             Self::DuplicatePackets => "none needed",
             Self::PacketsOutOfOrder => "none needed",
@@ -182,6 +191,13 @@ impl ProblemCode {
             }
             Self::GravityCalibrationRefused => "lay the device still for 20 s on each side before or after wearing",
             Self::NoImageWithPose => "see frames.parquet for the reason of each image",
+            Self::NoImageSelected => {
+                "check mount offset, axes, and target_pitch_deg; the problem names the likely cause"
+            }
+            Self::ImplausiblePose => "correct axes or mount offset as the problem says",
+            Self::ImplausibleRange => "correct mm_per_count in the device profile",
+            Self::ImplausibleGravity => "correct g_per_count in the device profile",
+            Self::ImplausibleCamera => "correct the camera file as the problem says (docs/devices.md)",
             Self::MarksUnreadable => "check its permissions",
             Self::MarksTooLarge => "check that it is a LabelMe file",
             Self::MarksMalformed => "save it from LabelMe again",

@@ -53,6 +53,7 @@ pub fn csv() {
             g_per_count: 1.0,
             zero_g_counts: [0.0; 3],
             axes: [profile::Axis::PlusX, profile::Axis::PlusY, profile::Axis::PlusZ],
+            full_scale_g: None,
         },
     };
     let mut ours = || {

@@ -17,7 +17,7 @@ pub struct IngestArgs {
     /// The MCAP file to write
     #[arg(short, long)]
     pub out: PathBuf,
-    /// Device profile: built in (aim2-packets, csv, pupil-neon, axivity-cwa), or a name in --devices
+    /// Device profile: built in (aim2-packets, csv, pupil-neon, pupil-invisible, axivity-cwa), or a name in --devices
     #[arg(long, default_value = "aim2-packets")]
     pub profile: String,
     /// Camera: built in (aim2-raw, aim2-corrected), or a name in --devices

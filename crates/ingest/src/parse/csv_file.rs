@@ -6,6 +6,7 @@ use std::io::Read;
 use jiff::tz::TimeZone;
 
 use super::csv_rows::CsvRows;
+use super::possible::PossibleCounts;
 use super::raw::{RawBlock, Stamps};
 use super::written_time::{self, WrittenTime};
 use super::{Converter, Fault, decimal};
@@ -41,6 +42,9 @@ pub struct CsvSamples<R: Read> {
     bad_rows: u64,
     bad_bytes: u64,
     first_bad_row: Option<(u64, String)>,
+    possible: Option<PossibleCounts>,
+    impossible: u64,
+    first_impossible: Option<String>,
     end: Option<Fault>,
 }
 
@@ -50,6 +54,15 @@ struct Columns {
     time: Option<usize>,
     values: Vec<usize>,
     extra: Vec<usize>,
+}
+
+/// The content of a row that can be read.
+enum Row {
+    Sample,
+    /// A value is empty or NaN.
+    Missing,
+    /// Counts that the sensor cannot give.
+    Impossible([f64; 3]),
 }
 
 /// A batch as it grows.
@@ -67,7 +80,19 @@ impl<R: Read> CsvSamples<R> {
     /// The rows in `reader`.
     pub fn new(reader: R, layout: CsvLayout) -> Self {
         let rows = CsvRows::new(reader, layout.format.delimiter);
-        Self { rows, layout, columns: None, read: 0, bad_rows: 0, bad_bytes: 0, first_bad_row: None, end: None }
+        Self {
+            rows,
+            possible: layout.converter.possible_counts(),
+            layout,
+            columns: None,
+            read: 0,
+            bad_rows: 0,
+            bad_bytes: 0,
+            first_bad_row: None,
+            impossible: 0,
+            first_impossible: None,
+            end: None,
+        }
     }
 
     /// The next rows. None when there are no more.
@@ -95,7 +120,9 @@ impl<R: Read> CsvSamples<R> {
     pub fn finish(self) -> (Vec<Fault>, R) {
         let (rows, bytes) = (self.bad_rows, self.bad_bytes);
         let bad_rows = self.first_bad_row.map(|(first_line, first)| Fault::BadRows { rows, bytes, first_line, first });
-        (bad_rows.into_iter().chain(self.end).collect(), self.rows.into_inner())
+        let (samples, of) = (self.impossible, self.read);
+        let impossible = self.first_impossible.map(|first| Fault::ImpossibleAcceleration { samples, of, first });
+        (bad_rows.into_iter().chain(impossible).chain(self.end).collect(), self.rows.into_inner())
     }
 
     fn block(&self, batch: Batch, first: u64, read: usize) -> RawBlock {
@@ -107,7 +134,7 @@ impl<R: Read> CsvSamples<R> {
         };
         let channels = self.layout.converter.convert(&batch.counts);
         let (extra, missing) = (batch.extra, batch.missing);
-        RawBlock { stamps, sequence: None, channels, extra, missing, declared_rate_hz: None }
+        RawBlock { stamps, sequence: None, channels, extra, missing, impossible: None, declared_rate_hz: None }
     }
 
     /// Reads a row into the batch. False at the end of the file.
@@ -123,8 +150,9 @@ impl<R: Read> CsvSamples<R> {
         let number = u32::try_from(self.read % BATCH_ROWS as u64).unwrap_or(0);
         self.read += 1;
         match self.sample(columns, batch) {
-            Ok(true) => batch.present.push(number),
-            Ok(false) => batch.missing += 1,
+            Ok(Row::Sample) => batch.present.push(number),
+            Ok(Row::Missing) => batch.missing += 1,
+            Ok(Row::Impossible(counts)) => self.note_impossible(counts),
             Err(fact) => self.note_bad_row(fact),
         }
         true
@@ -152,25 +180,28 @@ impl<R: Read> CsvSamples<R> {
         }
         let header = &self.rows;
         columns(layout, |name: &String| {
-            let is_it = |column: &[u8]| column.trim_ascii() == name.as_bytes();
-            header.fields().position(is_it).ok_or_else(|| Fault::MissingColumn {
+            let position = |name: &String| header.fields().position(|column| column.trim_ascii() == name.as_bytes());
+            let others = || layout.format.other_names.get(name).into_iter().flatten().find_map(position);
+            position(name).or_else(others).ok_or_else(|| Fault::MissingColumn {
                 column: name.clone(),
                 found: header.fields().take(SHOWN_COLUMNS).map(shown).collect::<Vec<_>>().join(", "),
             })
         })
     }
 
-    /// Appends the row; false if its sample is missing.
-    fn sample(&self, columns: &Columns, batch: &mut Batch) -> Result<bool, String> {
+    /// Appends the row, if it holds a sample.
+    fn sample(&self, columns: &Columns, batch: &mut Batch) -> Result<Row, String> {
         let stamp = columns.time.map(|column| self.stamp(column)).transpose()?;
         let mut counts = [0.0; 3];
         for ((count, column), name) in counts.iter_mut().zip(&columns.values).zip(&self.layout.values) {
             let field = self.rows.get(*column).ok_or_else(|| format!("the row ends before column '{name}'"))?;
-            *count =
-                self.number(field).ok_or_else(|| format!("column '{name}': '{}' is not a number", shown(field)))?;
+            *count = self.count(field).ok_or_else(|| format!("column '{name}': '{}' is not a number", shown(field)))?;
         }
-        if !counts.iter().all(|count| count.is_finite()) {
-            return Ok(false);
+        if counts.iter().any(|count| count.is_nan()) {
+            return Ok(Row::Missing);
+        }
+        if self.possible.is_some_and(|possible| !possible.contain(counts)) {
+            return Ok(Row::Impossible(counts));
         }
         batch.stamps.extend(stamp);
         for (column, count) in batch.counts.iter_mut().zip(counts) {
@@ -181,7 +212,16 @@ impl<R: Read> CsvSamples<R> {
             #[expect(clippy::cast_possible_truncation, reason = "carried, not used")]
             values.push(value as f32);
         }
-        Ok(true)
+        Ok(Row::Sample)
+    }
+
+    /// The count in a field, words for 'no target' included. NaN where there is none; none for anything else.
+    fn count(&self, field: &[u8]) -> Option<f64> {
+        let number = self.number(field).filter(|number| number.is_finite());
+        number.or_else(|| {
+            let word = self.layout.converter.count_of_word(field.trim_ascii());
+            word.or_else(|| self.number(field).map(|_| f64::NAN))
+        })
     }
 
     /// A decimal number; NaN for an empty field. None for anything else.
@@ -213,6 +253,12 @@ impl<R: Read> CsvSamples<R> {
         let power = unit.unwrap_or_default().power_of_ten_ns();
         decimal::ns(&self.with_point(field), power)
             .ok_or_else(|| format!("column '{name}': '{}' is no time", shown(field)))
+    }
+
+    fn note_impossible(&mut self, counts: [f64; 3]) {
+        self.impossible += 1;
+        let line = self.rows.line();
+        self.first_impossible.get_or_insert_with(|| format!("in line {line}: {counts:?}"));
     }
 
     fn note_bad_row(&mut self, fact: String) {

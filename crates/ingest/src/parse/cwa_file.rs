@@ -60,6 +60,7 @@ impl<R: Read> CwaSamples<R> {
             channels: self.layout.converter.convert(&[axis(0), axis(1), axis(2)]),
             extra,
             missing: 0,
+            impossible: None, // the file itself says what its counts mean
             declared_rate_hz: Some(block.nominal_rate_hz),
         }
     }

@@ -102,6 +102,18 @@ pub enum Fault {
         /// The fault of the first one.
         first: String,
     },
+    /// Accelerations that no sensor gives. They are left out; what is around them is used.
+    #[error(
+        "{samples} of {of} samples are accelerations that the sensor cannot give and are left out, the first {first}"
+    )]
+    ImpossibleAcceleration {
+        /// The number of them.
+        samples: u64,
+        /// The number of samples that the file has.
+        of: u64,
+        /// The place of the first one and its counts.
+        first: String,
+    },
     /// A line too long for a table of numbers, such as a block of zeros.
     #[error("line {line} is longer than {limit} bytes: from there on the file is not used")]
     LongLine {
@@ -175,6 +187,7 @@ impl Fault {
             Self::BadStamp { .. } => ProblemCode::BadStamp,
             Self::MissingColumn { .. } => ProblemCode::MissingColumn,
             Self::BadRows { .. } => ProblemCode::BadRows,
+            Self::ImpossibleAcceleration { .. } => ProblemCode::ImpossibleAcceleration,
             Self::LongLine { .. } => ProblemCode::LongLine,
             Self::Utf16 => ProblemCode::TextEncoding,
             Self::Unreadable { .. } => ProblemCode::UnreadableFile,
@@ -198,6 +211,13 @@ impl Fault {
             Self::BadStamp { .. } => "check header, endian and the stamp's type in the device profile",
             Self::MissingColumn { .. } => "correct the column's name in the device profile, or the file",
             Self::BadRows { .. } => "look at that line; time and values are plain decimal numbers",
+            Self::ImpossibleAcceleration { samples, of, .. } if 2 * samples > *of => {
+                "correct g_per_count, zero_g_counts or full_scale_g in the device profile: no sensor reads so much all the time"
+            }
+            Self::ImpossibleAcceleration { .. } => {
+                "none needed if the logger writes them for 'no value'; otherwise correct g_per_count or full_scale_g in the \
+                 device profile, or copy the file from the card again"
+            }
             Self::LongLine { .. } => "copy the file from the card again; a damaged card leaves blocks of zeros",
             Self::Utf16 => {
                 "save the file as UTF-8, such as by `iconv -f UTF-16 -t UTF-8`; Windows tools call UTF-16 'Unicode'"

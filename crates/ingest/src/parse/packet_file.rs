@@ -48,6 +48,22 @@ struct Damage {
     skipped_bytes: u64,
     first_skipped: Option<u64>,
     places: u64,
+    samples: u64,
+    impossible: u64,
+    first_impossible: Option<String>,
+}
+
+impl Damage {
+    /// Counts the impossible samples of the packet that begins at `offset`.
+    fn note_impossible(&mut self, offset: u64, block: Option<&RawBlock>) {
+        let Some(block) = block else { return };
+        self.samples += block.len() as u64;
+        if let Some((samples, first)) = &block.impossible {
+            self.samples += samples;
+            self.impossible += samples;
+            self.first_impossible.get_or_insert_with(|| format!("in the packet at byte {offset}, {first}"));
+        }
+    }
 }
 
 impl<R: Read> PacketSamples<R> {
@@ -89,6 +105,7 @@ impl<R: Read> PacketSamples<R> {
                 Ok(ns) if !self.fits(ns) => self.pass_bad(format!("{} s fits nothing around it", ns / 1_000_000_000)),
                 Ok(ns) => {
                     let block = self.parser.parse(packet).ok();
+                    self.damage.note_impossible(self.offset + self.next as u64, block.as_ref());
                     let step = self.last_ns.map(|last| self.parser.later_ns(ns, last)).filter(|step| *step > 0);
                     self.step_ns = step.or(self.step_ns);
                     self.last_ns = Some(ns);
@@ -118,7 +135,10 @@ impl<R: Read> PacketSamples<R> {
             places: damage.places,
             first_offset,
         });
-        (bad_stamps.into_iter().chain(zeros).chain(skipped).chain(self.end).collect(), self.reader)
+        let (samples, of) = (damage.impossible, damage.samples);
+        let impossible = damage.first_impossible.map(|first| Fault::ImpossibleAcceleration { samples, of, first });
+        let faults = bad_stamps.into_iter().chain(zeros).chain(skipped).chain(impossible).chain(self.end);
+        (faults.collect(), self.reader)
     }
 
     /// The stamp, if it is a time; what it is otherwise.
@@ -262,6 +282,7 @@ impl<R: Read> PacketSamples<R> {
             false => None,
         };
         let expected = self.parser.packet_bytes();
+        self.damage.note_impossible(offset, block.as_ref());
         let samples = block.as_ref().map_or(0, RawBlock::len);
         self.end = Some(Fault::TruncatedPacket { offset, expected, got, samples });
         self.next = self.bytes.len();

@@ -1,5 +1,6 @@
 //! One binary packet: a header with a stamp, then the samples of all channels.
 
+use super::possible::PossibleCounts;
 use super::raw::{RawBlock, Stamps};
 use super::scalar::{read_column, read_float, read_one, read_whole};
 use super::{Converter, decimal};
@@ -28,6 +29,7 @@ pub struct PacketParser {
     step_bytes: usize,
     samples: usize,
     missing: Option<f64>,
+    possible: Option<PossibleCounts>,
     converter: Converter,
 }
 
@@ -91,6 +93,7 @@ impl PacketParser {
             step_bytes,
             samples: layout.samples,
             missing: layout.missing,
+            possible: converter.possible_counts(),
             converter,
         })
     }
@@ -127,11 +130,12 @@ impl PacketParser {
         let counts: Vec<Vec<f64>> = self.channel_offsets.iter().map(|offset| self.column(packet, *offset)).collect();
         let extra: Vec<Vec<f64>> = self.extra_offsets.iter().map(|offset| self.column(packet, *offset)).collect();
         let whole = counts.iter().map(Vec::len).min().unwrap_or(0);
-        let present = self.present(&counts, whole);
+        let (present, impossible) = self.present(&counts, whole);
         let carried = |column: &Vec<f64>| self.carried(column, whole, present.as_deref());
         let extra = extra.iter().map(carried).collect();
         let channels = self.converter.convert(&kept(counts, whole, present.as_deref()));
-        let missing = present.as_ref().map_or(0, |present| whole - present.len()) as u64;
+        let absent = present.as_ref().map_or(0, |present| whole - present.len()) as u64;
+        let missing = absent - impossible.as_ref().map_or(0, |(samples, _)| *samples);
         Ok(RawBlock {
             stamps: Stamps::Packet {
                 ns,
@@ -146,6 +150,7 @@ impl PacketParser {
             channels,
             extra,
             missing,
+            impossible,
             declared_rate_hz: None,
         })
     }
@@ -182,9 +187,9 @@ impl PacketParser {
         column
     }
 
-    /// A flag for each of the first `whole` samples that is true where it is there; none where all are. One is missing where all its channels say so, or one
-    /// is not finite.
-    fn present(&self, counts: &[Vec<f64>], whole: usize) -> Option<Vec<u32>> {
+    /// The numbers of those of the first `whole` samples that are there; none where all are. One is missing where all its channels
+    /// say so, or one is not finite. Also the number of those that no sensor gives, and the first of them.
+    fn present(&self, counts: &[Vec<f64>], whole: usize) -> (Option<Vec<u32>>, Option<(u64, String)>) {
         let is_missing = |value: f64| self.missing.is_some_and(|missing| (value - missing).abs() < f64::EPSILON);
         // Whole columns without a branch, so that the common case, where nothing is missing, is vectorised.
         let mut all_missing = vec![true; whole];
@@ -195,9 +200,27 @@ impl PacketParser {
                 *finite &= value.is_finite();
             }
         }
-        let is_there = |i: &usize| finite[*i] && !all_missing[*i];
-        let here = all_missing.iter().zip(&finite).filter(|(missing, finite)| **finite && !**missing).count();
-        (here < whole).then(|| (0..whole).filter(is_there).filter_map(|i| u32::try_from(i).ok()).collect())
+        let is_there = |i: usize| finite[i] && !all_missing[i];
+        let impossible: Vec<usize> = self.impossible(counts, whole).into_iter().filter(|i| is_there(*i)).collect();
+        let here = (0..whole).filter(|i| is_there(*i)).count() - impossible.len();
+        let is_kept = |i: &usize| is_there(*i) && impossible.binary_search(i).is_err();
+        let present =
+            (here < whole).then(|| (0..whole).filter(is_kept).filter_map(|i| u32::try_from(i).ok()).collect());
+        let first = impossible.first().map(|i| {
+            let values: Vec<f64> = counts.iter().filter_map(|column| column.get(*i).copied()).collect();
+            (impossible.len() as u64, format!("sample {i}: {values:?}"))
+        });
+        (present, first)
+    }
+
+    /// The numbers of the samples, from 0, whose counts no sensor gives, in order.
+    fn impossible(&self, counts: &[Vec<f64>], whole: usize) -> Vec<usize> {
+        let Some(possible) = &self.possible else { return Vec::new() };
+        if counts.iter().enumerate().all(|(axis, column)| possible.are_usual(axis, column)) {
+            return Vec::new();
+        }
+        let sample = |i: usize| counts.iter().filter_map(move |column| column.get(i).copied());
+        (0..whole).filter(|i| !possible.contain(sample(*i))).collect()
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "24 bits hold every count of a 16-bit sensor")]

@@ -13,6 +13,8 @@ pub struct RawBlock {
     pub extra: Vec<Vec<f32>>,
     /// Samples that the file marks as missing.
     pub missing: u64,
+    /// The number of samples of a packet that no sensor gives, which are left out, and the first of them.
+    pub impossible: Option<(u64, String)>,
     /// The rate that the file itself declares, Hz.
     pub declared_rate_hz: Option<f64>,
 }

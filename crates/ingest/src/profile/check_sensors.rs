@@ -1,7 +1,7 @@
 //! Whether what a profile says of its sensors makes sense.
 
 use super::check::{Wrong, check_files, check_positive, wrong};
-use super::{Anchor, Axis, CsvFormat, Epoch, PacketLayout, Profile, RowTime, Scalar};
+use super::{Anchor, Axis, CsvFormat, Epoch, NoTarget, PacketLayout, Profile, RangeStream, RowTime, Scalar};
 use crate::parse::{image_time, written_time};
 
 /// A packet is read whole; this keeps a mistyped `samples` from asking for all memory.
@@ -17,6 +17,7 @@ pub(super) fn check(profile: &Profile) -> Result<(), Wrong> {
             let remedy = "give the counts at 0 g, [0, 0, 0] if unknown";
             return wrong("acceleration.zero_g_counts", "not finite numbers", remedy);
         }
+        stream.full_scale_g.map_or(Ok(()), |full| check_positive("acceleration.full_scale_g", full))?;
         check_axes(&stream.axes)?;
         let csv = stream.csv.as_ref().map(|csv| (csv.format(), &csv.time));
         check_one("acceleration", [stream.packets.is_some(), csv.is_some(), stream.cwa.is_some()])?;
@@ -25,6 +26,7 @@ pub(super) fn check(profile: &Profile) -> Result<(), Wrong> {
     if let Some(stream) = &profile.range {
         check_stream("range", &stream.files, stream.rate_hz, stream.gap_s)?;
         check_positive("range.mm_per_count", stream.mm_per_count)?;
+        check_no_target(stream)?;
         let csv = stream.csv.as_ref().map(|csv| (csv.format(), &csv.time));
         check_one("range", [stream.packets.is_some(), csv.is_some(), false])?;
         check_layouts("range", profile, (stream.packets.as_ref(), &["range"]), &stream.extra, csv)?;
@@ -41,6 +43,23 @@ fn check_stream(stream: &str, files: &[String], rate_hz: f64, gap_s: Option<f64>
     check_files(&format!("{stream}.files"), files)?;
     check_positive(&format!("{stream}.rate_hz"), rate_hz)?;
     gap_s.map_or(Ok(()), |gap_s| check_positive(&format!("{stream}.gap_s"), gap_s))
+}
+
+fn check_no_target(stream: &RangeStream) -> Result<(), Wrong> {
+    for code in stream.no_target.iter().flatten() {
+        match code {
+            NoTarget::Number(number) if !number.is_finite() => {
+                let remedy = "give a finite number, or the word that stands in the file, between quotes";
+                return wrong("range.no_target", format!("{number} is not a finite number"), remedy);
+            }
+            NoTarget::Word(word) if stream.packets.is_some() && code.number().is_none() => {
+                let fact = format!("packets cannot hold the word '{word}'");
+                return wrong("range.no_target", fact, "give the numbers that the packets hold");
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 fn check_axes(axes: &[Axis; 3]) -> Result<(), Wrong> {

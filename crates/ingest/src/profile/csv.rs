@@ -1,5 +1,7 @@
 //! How samples lie in CSV files.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Epoch, TimeUnit};
@@ -15,11 +17,14 @@ pub struct CsvFormat {
     pub header: bool,
     /// Whether numbers have a comma where others have a point.
     pub decimal_comma: bool,
+    /// Other names that a column may have, by the name that the profile uses.
+    pub other_names: BTreeMap<String, Vec<String>>,
 }
 
 impl Default for CsvFormat {
     fn default() -> Self {
-        Self { delimiter: comma(), skip_lines: 0, header: yes(), decimal_comma: false }
+        let other_names = BTreeMap::new();
+        Self { delimiter: comma(), skip_lines: 0, header: yes(), decimal_comma: false, other_names }
     }
 }
 
@@ -83,6 +88,9 @@ pub struct AccelerationColumns {
     /// Whether numbers have a comma where others have a point.
     #[serde(default)]
     pub decimal_comma: bool,
+    /// Other names that a column may have, by the name that is used above: for exports whose names changed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub other_names: BTreeMap<String, Vec<String>>,
 }
 
 /// Columns of a range sensor's CSV file.
@@ -105,6 +113,9 @@ pub struct RangeColumns {
     /// Whether numbers have a comma where others have a point.
     #[serde(default)]
     pub decimal_comma: bool,
+    /// Other names that a column may have, by the name that is used above: for exports whose names changed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub other_names: BTreeMap<String, Vec<String>>,
 }
 
 impl AccelerationColumns {
@@ -112,7 +123,7 @@ impl AccelerationColumns {
     #[must_use]
     pub fn format(&self) -> CsvFormat {
         let Self { delimiter, skip_lines, header, decimal_comma, .. } = *self;
-        CsvFormat { delimiter, skip_lines, header, decimal_comma }
+        CsvFormat { delimiter, skip_lines, header, decimal_comma, other_names: self.other_names.clone() }
     }
 }
 
@@ -121,6 +132,6 @@ impl RangeColumns {
     #[must_use]
     pub fn format(&self) -> CsvFormat {
         let Self { delimiter, skip_lines, header, decimal_comma, .. } = *self;
-        CsvFormat { delimiter, skip_lines, header, decimal_comma }
+        CsvFormat { delimiter, skip_lines, header, decimal_comma, other_names: self.other_names.clone() }
     }
 }

@@ -7,12 +7,14 @@ mod clock;
 mod csv;
 mod images;
 mod layout;
+mod no_target;
 
 pub use axes::Axis;
 pub use clock::{Anchor, ClockSpec, Epoch, TimeUnit};
 pub use csv::{AccelerationColumns, CsvFormat, RangeColumns, RowTime};
 pub use images::{ImageTime, Images};
 pub use layout::{Endian, HeaderField, PacketLayout, PacketStamp, SampleOrder, Scalar, StampAt, Step};
+pub use no_target::NoTarget;
 
 use std::path::Path;
 
@@ -31,6 +33,7 @@ const SHELF: Shelf = Shelf {
         ("csv", include_str!("../../profiles/csv.toml")),
         ("axivity-cwa", include_str!("../../profiles/axivity-cwa.toml")),
         ("pupil-neon", include_str!("../../profiles/pupil-neon.toml")),
+        ("pupil-invisible", include_str!("../../profiles/pupil-invisible.toml")),
     ],
     marks: &["acceleration", "range", "images"],
 };
@@ -77,6 +80,9 @@ pub struct AccelerationStream {
     /// Counts at 0 g, per sensor axis.
     #[serde(default)]
     pub zero_g_counts: [f64; 3],
+    /// The sensor's full scale in g, such as 2 for a sensor set to +-2 g; readings far beyond it are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub full_scale_g: Option<f64>,
     /// Device right, down, forward as sensor axes.
     pub axes: [Axis; 3],
     /// Other channels, or columns, that are carried along.
@@ -115,6 +121,9 @@ pub struct RangeStream {
     pub gap_s: Option<f64>,
     /// Counts to mm.
     pub mm_per_count: f64,
+    /// The numbers and words that stand for 'no target', as they stand in the files; those of the usual drivers where none are given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub no_target: Option<Vec<NoTarget>>,
     /// Other channels, or columns, that are carried along.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<String>,

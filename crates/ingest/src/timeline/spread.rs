@@ -254,7 +254,7 @@ fn split_off(block: &mut RawBlock, row: usize) -> RawBlock {
         columns.iter_mut().map(|column| column.split_off(row.min(column.len()))).collect()
     };
     let (channels, extra) = (cut(&mut block.channels), cut(&mut block.extra));
-    RawBlock { stamps, channels, extra, missing: 0, ..*block }
+    RawBlock { stamps, channels, extra, missing: 0, impossible: None, ..*block }
 }
 
 /// Replaces the stamps of rows; rows without a time are left out.

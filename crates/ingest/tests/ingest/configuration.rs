@@ -19,7 +19,7 @@ fn built_in(name: &str) -> String {
 
 #[test]
 fn every_built_in_profile_and_camera_loads() {
-    for name in ["aim2-packets", "csv"] {
+    for name in ["aim2-packets", "csv", "axivity-cwa", "pupil-neon", "pupil-invisible"] {
         let profile = Profile::load(name, Path::new("no-such-folder")).unwrap();
         assert_eq!(profile.name, name);
         let text = toml::to_string(&profile).unwrap();
@@ -111,7 +111,10 @@ fn an_unknown_name_lists_what_exists() {
     assert!(message.contains("unknown camera 'aim2-rwa' (did you mean 'aim2-raw'?)"), "{message}");
     assert!(message.contains("known are aim2-corrected, aim2-raw, unit-7;"), "{message}");
     let message = Profile::load("../csv", devices.path()).unwrap_err().to_string();
-    assert!(message.contains("known are aim2-packets, axivity-cwa, csv, own-profile, pupil-neon;"), "{message}");
+    assert!(
+        message.contains("known are aim2-packets, axivity-cwa, csv, own-profile, pupil-invisible, pupil-neon;"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -143,4 +146,21 @@ fn files_that_are_no_configuration_are_refused() {
     assert!(matches!(read(), ConfigError::NotUtf8 { offset: 8, .. }));
     std::fs::write(&path, vec![b'#'; 5_000_000]).unwrap();
     assert!(matches!(read(), ConfigError::TooLarge { .. }));
+}
+
+#[test]
+fn words_for_no_target_are_for_csv_files() {
+    let with = |name: &str, list: &str| {
+        let text = built_in(name).replace("mm_per_count = 1.0\n", &format!("mm_per_count = 1.0\nno_target = {list}\n"));
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("p.toml");
+        std::fs::write(&path, text).unwrap();
+        Profile::read_file(&path).map_err(|error| error.to_string())
+    };
+    assert!(with("csv", "[0, 8190.5, \"OOR\"]").is_ok());
+    assert!(with("aim2-packets", "[0, -1]").is_ok());
+    let message = with("aim2-packets", "[\"OOR\"]").unwrap_err();
+    assert!(message.contains("range.no_target") && message.contains("cannot hold the word 'OOR'"), "{message}");
+    let message = with("csv", "[nan]").unwrap_err();
+    assert!(message.contains("not a finite number"), "{message}");
 }

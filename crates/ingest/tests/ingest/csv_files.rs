@@ -1,7 +1,7 @@
 //! CSV: columns by name, exact times, missing and bad values.
 
-use aim_batch_ingest::parse::{Converter, CsvLayout, CsvSamples, Fault};
-use aim_batch_ingest::profile::{CsvFormat, RowTime, TimeUnit};
+use aim_batch_ingest::parse::{Converter, CsvLayout, CsvSamples, Fault, NoTargetReadings};
+use aim_batch_ingest::profile::{Axis, CsvFormat, NoTarget, RowTime, TimeUnit};
 
 use crate::support::{timed, times_and_values};
 
@@ -13,7 +13,7 @@ fn layout(time: RowTime, delimiter: char) -> CsvLayout {
         time,
         values: vec!["range".to_owned()],
         extra: vec![],
-        converter: Converter::Range { mm_per_count: 10.0 },
+        converter: Converter::Range { mm_per_count: 10.0, no_target: NoTargetReadings::default() },
     }
 }
 
@@ -113,6 +113,39 @@ fn times_as_text() {
     assert!(matches!(faults[..], [Fault::BadRows { rows: 1, .. }]), "{faults:?}");
     let (samples, _) = read_with(b"t,range\n2025-06-01T14:00:00+0200,1\n", layout(text("%Y-%m-%dT%H:%M:%S%z"), ','));
     assert_eq!(samples, [range(1_748_779_200_000_000_000, 10.0)]);
+}
+
+/// Adafruit's library in Python writes `None`, its 819.0 cm are the sensor's 8190, Pololu's 65535 and -1 are failures.
+#[test]
+fn what_a_driver_writes_for_no_target_is_one_code_and_no_loss() {
+    let text = b"t,range\n1,51.5\n2,None\n3,819.0\n4,819.1\n5,65535\n6,-1\n7,inf\n8,\n9,52\n";
+    let (samples, faults) = read(text, TimeUnit::S, b',');
+    assert_eq!(faults, []);
+    let mm: Vec<f32> = samples.iter().map(|(_, values)| values[0]).collect();
+    assert_eq!(mm, [515.0, 8190.0, 8190.0, 8191.0, 8190.0, 8190.0, 8190.0, 520.0]);
+}
+
+#[test]
+fn a_profile_says_what_no_target_is() {
+    let declared = vec![NoTarget::Number(0.0), NoTarget::Word("out of range".to_owned())];
+    let converter = Converter::Range { mm_per_count: 10.0, no_target: NoTargetReadings::new(Some(declared)) };
+    let text = b"t,range\n1,0\n2,Out of Range\n3,None\n4,7\n";
+    let (samples, faults) = read_with(text, CsvLayout { converter, ..layout(column(TimeUnit::S), ',') });
+    assert_eq!(samples, [range(1_000_000_000, 8190.0), range(2_000_000_000, 8190.0), range(4_000_000_000, 70.0)]);
+    assert!(matches!(faults[..], [Fault::BadRows { rows: 1, first_line: 4, .. }]), "{faults:?}");
+}
+
+#[test]
+fn accelerations_that_no_sensor_has_are_left_out_and_told_with_their_line() {
+    let axes = [Axis::PlusX, Axis::PlusY, Axis::PlusZ];
+    let converter =
+        Converter::Acceleration { g_per_count: 1.0, zero_g_counts: [0.0; 3], axes, full_scale_g: Some(2.0) };
+    let values = ["x", "y", "z"].map(str::to_owned).to_vec();
+    let text = b"t,x,y,z\n1,0,-1,0\n2,0,-9999,0\n3,0,0,4\n4,1e30,0,0\n5,0,0,-2.1\n";
+    let (samples, faults) = read_with(text, CsvLayout { converter, values, ..layout(column(TimeUnit::S), ',') });
+    assert_eq!(samples, [(1_000_000_000, vec![0.0, -1.0, 0.0]), (5_000_000_000, vec![0.0, 0.0, -2.1])]);
+    let first = "in line 3: [0.0, -9999.0, 0.0]".to_owned();
+    assert_eq!(faults, [Fault::ImpossibleAcceleration { samples: 3, of: 5, first }]);
 }
 
 /// Samples one second apart.

@@ -87,6 +87,7 @@ fn config_toml() -> Seeds {
         ("profiles", "axivity-cwa"),
         ("profiles", "csv"),
         ("profiles", "pupil-neon"),
+        ("profiles", "pupil-invisible"),
         ("cameras", "aim2-raw"),
         ("cameras", "aim2-corrected"),
     ];

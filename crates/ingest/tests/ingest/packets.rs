@@ -1,6 +1,6 @@
 //! Packets: both orders, both byte orders, missing samples, truncated files, bad stamps.
 
-use aim_batch_ingest::parse::{Converter, Fault, PacketError, PacketParser, PacketSamples, RawBlock};
+use aim_batch_ingest::parse::{Converter, Fault, NoTargetReadings, PacketError, PacketParser, PacketSamples, RawBlock};
 use aim_batch_ingest::profile::{
     Axis, Endian, HeaderField, PacketLayout, PacketStamp, SampleOrder, Scalar, StampAt, Step, TimeUnit,
 };
@@ -31,7 +31,7 @@ fn layout(order: SampleOrder, endian: Endian) -> PacketLayout {
 fn converter() -> Converter {
     // Device right, down, forward = sensor +y, -x, +z.
     let axes = [Axis::PlusY, Axis::MinusX, Axis::PlusZ];
-    Converter::Acceleration { g_per_count: 0.5, zero_g_counts: [2.0, 0.0, -4.0], axes }
+    Converter::Acceleration { g_per_count: 0.5, zero_g_counts: [2.0, 0.0, -4.0], axes, full_scale_g: Some(1e6) }
 }
 
 /// A packet: serial, stamp, flags, then values in file order.
@@ -80,7 +80,9 @@ fn stamped(scalar: Scalar, unit: TimeUnit, stamp: &[u8]) -> Result<Vec<(i64, Vec
         samples: 1,
         ..layout(SampleOrder::ChannelMajor, Endian::Little)
     };
-    let parser = PacketParser::new(&layout, &[], Converter::Range { mm_per_count: 2.0 }).unwrap();
+    let parser =
+        PacketParser::new(&layout, &[], Converter::Range { mm_per_count: 2.0, no_target: NoTargetReadings::default() })
+            .unwrap();
     let block = parser.parse(&[stamp, &300_i16.to_le_bytes()].concat())?;
     Ok(times_and_values(&timed([block], 10.0)))
 }
@@ -226,7 +228,9 @@ fn a_long_file_of_garbage_takes_no_longer_than_it_is() {
         samples: 1,
         ..layout(SampleOrder::ChannelMajor, Endian::Little)
     };
-    let parser = PacketParser::new(&layout, &[], Converter::Range { mm_per_count: 1.0 }).unwrap();
+    let parser =
+        PacketParser::new(&layout, &[], Converter::Range { mm_per_count: 1.0, no_target: NoTargetReadings::default() })
+            .unwrap();
     let record = |i: u32| (STAMP_S + f64::from(i)).to_le_bytes().into_iter().chain([7]);
     let records: Vec<u8> = (0..1000).flat_map(record).collect();
     let begun = std::time::Instant::now();

@@ -16,6 +16,7 @@ mod marked;
 mod measurement;
 mod naming;
 mod output;
+mod plausible;
 mod prepared;
 mod problems;
 mod recording;

@@ -14,6 +14,7 @@ use super::ledger::{ledger, ledger_of_failed};
 use super::marked::marked;
 use super::measurement::measure_all;
 use super::output::SessionOutput;
+use super::plausible;
 use super::prepared::Prepared;
 use super::problems::without_host;
 use super::recording::{Recording, read as read_recording};
@@ -134,7 +135,9 @@ impl Measuring<'_> {
         output.inputs_sha256.extend(prepared.session_toml_sha256.clone());
         let inputs = std::mem::take(&mut recording.inputs_sha256);
         output.inputs_sha256.extend(inputs.into_iter().map(|(file, sha)| (format!("cards/{}/{file}", dir.name), sha)));
+        let mount_pitch_deg = study.spec.mount.pitch_offset_deg.unwrap_or(recording.mount_pitch_deg);
         let session = Session::new(study, dir, prepared, recording);
+        output.status.problems.extend(plausible::problems(&session, prepared, mount_pitch_deg));
         self.reporter.stage(&dir.name, Stage::Marks);
         let marks = self.marks(&session, auto, &mut output);
         self.reporter.stage(&dir.name, Stage::Measure);

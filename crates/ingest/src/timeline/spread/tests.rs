@@ -7,7 +7,15 @@ const MS: i64 = 1_000_000;
 fn block(stamps: &[i64]) -> RawBlock {
     let values = (0..stamps.len()).map(|i| i as f32).collect();
     let stamps = Stamps::Each(stamps.iter().map(|ms| ms * MS).collect());
-    RawBlock { stamps, sequence: None, channels: vec![values], extra: vec![], missing: 0, declared_rate_hz: None }
+    RawBlock {
+        stamps,
+        sequence: None,
+        channels: vec![values],
+        extra: vec![],
+        missing: 0,
+        impossible: None,
+        declared_rate_hz: None,
+    }
 }
 
 /// Times in ms of all rows, and how many were left out; stamps in ms, given in blocks of `size` rows.

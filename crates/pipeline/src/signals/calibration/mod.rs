@@ -4,6 +4,7 @@
 //! unit sphere. An offset and a scale per axis that bring them there calibrate the sensor without a bench (van Hees et al.
 //! 2014, J Appl Physiol 117:738-744; the R package GGIR, `g.calibrate`, is the implementation that the field uses).
 
+mod rails;
 mod sphere;
 mod stats;
 #[cfg(test)]
@@ -72,8 +73,10 @@ impl CalibrationVerdict {
 pub struct GravityCalibration {
     /// Whether it may be used.
     pub verdict: CalibrationVerdict,
-    /// The number of still windows of 10 s.
+    /// The number of still windows of 10 s that are used.
     pub windows: u64,
+    /// The number of still windows that are left out because an axis stands at the sensor's rail.
+    pub at_rail: u64,
     /// The number of different directions among them, in cells of an eighth of g.
     pub directions: usize,
     /// The smallest component among them, in g, by axis.
@@ -109,11 +112,12 @@ impl GravityCalibration {
         self.fit.filter(|_| self.verdict == CalibrationVerdict::Accepted)
     }
 
-    fn from_points(points: &Points) -> Self {
+    fn from_points(points: &Points, at_rail: u64) -> Self {
         let (least_g, most_g) = points.reach();
         let mut judged = Self {
             verdict: CalibrationVerdict::Accepted,
             windows: points.windows(),
+            at_rail,
             directions: points.directions(),
             least_g,
             most_g,
@@ -150,8 +154,11 @@ fn verdict(fit: &AxisCalibration, before_mg: Option<f64>, after_mg: Option<f64>)
 
 impl std::fmt::Display for GravityCalibration {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { windows, directions, least_g: l, most_g: m, .. } = self;
+        let Self { windows, at_rail, directions, least_g: l, most_g: m, .. } = self;
         write!(f, "{windows} still windows of 10 s in {directions} directions")?;
+        if *at_rail > 0 {
+            write!(f, " ({at_rail} more, with an axis at the sensor's rail, are left out)")?;
+        }
         if *windows > 0 {
             let axes = [("x", l.x, m.x), ("y", l.y, m.y), ("z", l.z, m.z)];
             for (axis, least, most) in axes {

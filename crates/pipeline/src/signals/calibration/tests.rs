@@ -166,6 +166,51 @@ fn memory_does_not_grow_with_nights() {
     assert!(points.cells() < 100_000, "{} cells", points.cells());
 }
 
+/// Windows of a good sensor, and among them some in which x stands at its rail, whatever the sensor feels.
+fn with_stuck_windows(rail_g: f64, noise_g: f64) -> GravityCalibration {
+    let mut forces = read_by(&bad_sensor(), all_over(95));
+    forces.extend(all_over(16).into_iter().map(|force| Vector3::new(rail_g, force.y, force.z)));
+    let (mut windows, mut noise, mut time_s) = (StillWindows::default(), Noise(7), 0.0);
+    for force in &forces {
+        for i in 0..11 * RATE_HZ {
+            let mut value = force + Vector3::from_fn(|_, _| noise_g * noise.next());
+            if (force.x - rail_g).abs() < 1e-12 {
+                value.x = rail_g;
+            }
+            windows.push(UtcNs(0).plus_seconds(time_s + f64::from(i) / f64::from(RATE_HZ)), &value);
+        }
+        time_s += 15.0;
+    }
+    windows.calibration()
+}
+
+#[test]
+fn windows_at_a_rail_do_not_spoil_the_fit() {
+    // The end of a sensor of +-2 g, the same below, and the ends of sensors of +-1.5 g and +-1.2 g with and without noise.
+    for (rail_g, noise_g) in [(1.984, 0.0), (1.984, 0.005), (-2.0, 0.005), (1.5, 0.0), (1.5, 0.005), (-1.25, 0.005)] {
+        let calibration = with_stuck_windows(rail_g, noise_g);
+        assert_eq!(
+            (calibration.verdict, calibration.windows, calibration.at_rail),
+            (CalibrationVerdict::Accepted, 95, 16)
+        );
+        let fit = calibration.accepted().unwrap();
+        assert!((fit.offset_g - bad_sensor().offset_g).amax() < 0.002, "{rail_g}: {calibration}");
+        assert!((fit.scale - bad_sensor().scale).amax() < 0.002, "{rail_g}: {calibration}");
+        assert!(calibration.to_string().contains("(16 more, with an axis at the sensor's rail, are left out)"));
+    }
+}
+
+/// A large offset makes the sides of a good sensor its extremes; they are what the calibration lives on.
+#[test]
+fn the_sides_of_a_sensor_with_a_large_offset_are_no_rail() {
+    let sensor = AxisCalibration { offset_g: Vector3::new(-0.25, 0.0, 0.0), scale: Vector3::new(1.0, 1.0, 1.0) };
+    let mut forces = all_over(100);
+    forces.extend([Vector3::x(); 20]);
+    let calibration = windows(&read_by(&sensor, forces), 0.004).calibration();
+    assert_eq!((calibration.verdict, calibration.at_rail), (CalibrationVerdict::Accepted, 0));
+    assert!((calibration.fit.unwrap().offset_g - sensor.offset_g).amax() < 0.001);
+}
+
 /// A real ADXL345 log of three minutes (Axivity AX3), at its declared 100 Hz.
 #[test]
 fn a_real_log_that_is_too_short_is_refused() {
