@@ -17,6 +17,7 @@ import duckdb
 import numpy as np
 import pandas as pd
 import pyarrow as pa
+import pyarrow.compute
 import pyarrow.parquet as pq
 from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
@@ -164,15 +165,15 @@ ARROW_TYPES = {
     "float64": {pa.float64()},
     "uint32": {pa.uint32()},
     "bool": {pa.bool_()},
-    "timestamp[ns, UTC]": {pa.timestamp("ns", tz="UTC")},
+    "timestamp[us, UTC]": {pa.timestamp("us", tz="UTC")},
 }
-PANDAS_TYPES = {"float64": "float64", "uint32": "uint32", "bool": "bool", "timestamp[ns, UTC]": "datetime64[ns, UTC]"}
+PANDAS_TYPES = {"float64": "float64", "uint32": "uint32", "bool": "bool", "timestamp[us, UTC]": "datetime64[us, UTC]"}
 DUCKDB_TYPES = {
     "text": {"VARCHAR"},
     "float64": {"DOUBLE"},
     "uint32": {"UINTEGER"},
     "bool": {"BOOLEAN"},
-    "timestamp[ns, UTC]": {"TIMESTAMP WITH TIME ZONE", "TIMESTAMP_NS", "TIMESTAMPTZ_NS", "TIMESTAMP_NS WITH TIME ZONE"},
+    "timestamp[us, UTC]": {"TIMESTAMP WITH TIME ZONE"},
 }
 UNITS = ("_mm", "_deg", "_pct", "_mg")
 RATIOS = ("wall_slope", "weight", "chi_squared", "confidence", "rim_in_picture", "rim_seen")  # numbers without a unit
@@ -206,7 +207,26 @@ def check_parquet(path, columns, rows):
         check(expected in (None, str(frame[name].dtype)), at, f"pandas reads {frame[name].dtype}, expected {expected}")
         check(may_be_empty or table[name].null_count == 0, at, f"{table[name].null_count} empty cells, expected none")
         check(kind != "float64" or name.endswith(UNITS) or name in RATIOS, at, "a number without its unit in the name")
+    check_times(place, path, frame)
     return table
+
+
+def check_times(place, path, frame):
+    """The times can be computed with: their span and order, and the number of whole minutes, are the same in every reader."""
+    times = pq.read_table(path, columns=["time_utc"])["time_utc"]
+    known = frame["time_utc"].dropna()
+    first, last = known.min(), known.max()
+    minutes = known.dt.floor("min").nunique()
+    span_us = int((last - first) / pd.Timedelta(microseconds=1))
+    bounds = pa.compute.min_max(times).as_py()
+    check(int((bounds["max"] - bounds["min"]) / pd.Timedelta(microseconds=1)) == span_us, place, "pyarrow has another span of times")
+    in_duckdb = duckdb.sql(
+        f"SELECT epoch_us(max(time_utc)) - epoch_us(min(time_utc)), date_diff('microsecond', min(time_utc), max(time_utc)), "
+        f"epoch(max(time_utc) - min(time_utc)), count(DISTINCT date_trunc('minute', time_utc)), "
+        f"count(*) FILTER (time_utc > TIMESTAMPTZ '{first.isoformat()}') FROM '{path}'"
+    ).fetchall()[0]
+    expected = (span_us, span_us, span_us / 1e6, minutes, int((known > first).sum()))
+    check(in_duckdb == expected, place, f"DuckDB computes with times: {in_duckdb}, pandas {expected}")
 
 
 def check_run_metadata(path, table):

@@ -32,6 +32,19 @@ pub enum CircleError {
     /// The points lie on a line or on one spot.
     #[error("the points lie on a line or on one spot; spread them around the rim")]
     Degenerate,
+    /// The points do not follow a circle.
+    #[error(
+        "the {points} points lie {misfit_px:.1} px (RMS) off the best circle, where marks and pose explain {expected_px:.1} px; if the \
+         edge is round, correct the points, and keep other edges out of the outline"
+    )]
+    NotRound {
+        /// The number of points.
+        points: usize,
+        /// RMS distance of the points from the circle, in px of the picture.
+        misfit_px: f64,
+        /// The RMS distance that the uncertainties of marks and pose would give.
+        expected_px: f64,
+    },
 }
 
 /// The least-squares circle through points on a plane.
@@ -69,7 +82,7 @@ pub fn fit_circle(
 }
 
 /// The circle of Kasa's fit, which solves x^2 + y^2 = 2 a x + 2 b y + c in the least-squares sense, about the centroid.
-fn algebraic_fit(points_mm: &[Point2<f64>]) -> Result<Circle, CircleError> {
+pub(crate) fn algebraic_fit(points_mm: &[Point2<f64>]) -> Result<Circle, CircleError> {
     #[expect(clippy::cast_precision_loss, reason = "a count of marks is far below 2^53")]
     let n = points_mm.len() as f64;
     let centroid = points_mm.iter().fold(nalgebra::Vector2::zeros(), |sum, p| sum + p.coords) / n;

@@ -2,11 +2,11 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use crate::fusion::{Share, combined_sigma};
+use crate::fusion::{Part, Share, combined_sigma, parts_of_sum};
 use crate::marks::ObjectMarks;
-use crate::measure::{HeightLine, MeasureError, Numbered, camera_height, possible_height};
+use crate::measure::{HeightLine, Judge, MeasureError, Numbered, camera_height, possible_height};
 use crate::sensed::Sensed;
-use crate::uncertainty::{InputSigma, Sensitivity, SizeSigma};
+use crate::sigma::{InputSigma, Sensitivity, SizeSigma};
 use crate::view::View;
 
 /// A wall as one picture shows it: on Z = 0 its foot is at the distance a from the point under the camera, and its rim at the
@@ -38,11 +38,11 @@ impl Sight {
     }
 }
 
-/// The walls that the height lines on one picture show, one for each line.
+/// The walls that the height lines on one picture show, one for each line that does not contradict the others.
 ///
 /// # Errors
-/// [`MeasureError`] when an end of a line has no place on the table.
-pub fn sights(view: &View, marks: &ObjectMarks) -> Result<Vec<Sight>, MeasureError> {
+/// [`MeasureError`] when an end of a line has no place on the table, and when lines contradict each other.
+pub fn sights(view: &View, marks: &ObjectMarks, inputs: &InputSigma) -> Result<Vec<Sight>, MeasureError> {
     let numbered = Numbered::from_marks(marks);
     let sight = |line: HeightLine| {
         let [foot, rim] = line.distances(view, numbered.points)?;
@@ -58,7 +58,8 @@ pub fn sights(view: &View, marks: &ObjectMarks) -> Result<Vec<Sight>, MeasureErr
             ),
         })
     };
-    numbered.height_lines().map(sight).collect()
+    let agreeing = numbered.agreeing_height_lines(view, &Judge::new(inputs))?;
+    agreeing.into_iter().map(sight).collect()
 }
 
 /// The reason why several pictures do not give a height together.
@@ -102,44 +103,52 @@ pub struct JointHeight {
     pub height_mm: f64,
     /// How far the rim overhangs the foot, away from the wearer.
     pub overhang_mm: f64,
-    /// Derivatives of the height through each picture.
-    pub shares: Vec<Sensitivity>,
-    /// Standard uncertainties of each picture's inputs.
-    pub inputs: Vec<InputSigma>,
+    /// The parts of the height from each picture.
+    pub parts: Vec<Part>,
     /// Standard uncertainty of the height.
     pub sigma: SizeSigma,
 }
 
 impl JointHeight {
-    /// The uncertainty of a size that was measured on the plane at this height in each picture, and then fused. `shares`: the
-    /// sizes on the plane, taken as exact, with pictures numbered as [`joint_height`] had them. `weights`: those that
-    /// [`fuse`](crate::fuse()) gave. `camera_heights_mm`: the height of the camera above the table for each share. Lifting a
-    /// plane scales it about the point under the camera, so a size changes by -size / (c - H) per height.
+    /// The parts of a size that was measured on the plane at this height in each picture, and then fused. `shares`: the
+    /// sizes on the plane, taken as exact. `weights`: those that [`fuse`](crate::fuse()) gave. `camera_heights_mm`: the height of
+    /// the camera above the table for each share. Lifting a plane scales it about the point under the camera, so a size
+    /// changes by -size / (c - H) per height.
     #[must_use]
-    pub fn sigma_on_plane(&self, shares: &[Share], weights: &[f64], camera_heights_mm: &[f64]) -> SizeSigma {
+    pub fn parts_on_plane(&self, shares: &[Share], weights: &[f64], camera_heights_mm: &[f64]) -> Vec<Part> {
         let by_height: f64 = shares
             .iter()
             .zip(weights)
             .zip(camera_heights_mm)
             .map(|((share, w), c)| -w * share.value_mm / (c - self.height_mm))
             .sum();
-        let size_terms = shares.iter().zip(weights).map(|(s, w)| (*w, &s.sensitivity, &s.inputs, s.picture));
-        let height_terms = self.shares.iter().zip(&self.inputs).enumerate();
-        combined_sigma(size_terms.chain(height_terms.map(|(picture, (s, inputs))| (by_height, s, inputs, picture))))
+        let height_parts = self.parts.iter().map(|part| part.scaled(by_height));
+        parts_of_sum(shares, weights).into_iter().chain(height_parts).collect()
     }
+}
+
+/// The walls that one picture shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sights {
+    /// One for each height line, at least one.
+    pub walls: Vec<Sight>,
+    /// The uncertainties of the picture's inputs.
+    pub inputs: InputSigma,
+    /// The number of the picture.
+    pub picture: usize,
 }
 
 /// A height is refused when its uncertainty is more than this share of it, beyond which first order has no meaning.
 const LARGEST_SHARE: f64 = 0.35;
 
-/// The height and the overhang by a weighted straight line through the sights of all pictures. Each picture comes with its
-/// own inputs and must be given only once; the sights of one picture are averaged.
+/// The height and the overhang by a weighted straight line through the sights of all pictures. Each picture must be given only
+/// once; the sights of one picture are averaged.
 ///
 /// # Errors
 /// [`JointError`] when the pictures do not determine a height.
-pub fn joint_height(pictures: &[(Vec<Sight>, InputSigma)]) -> Result<JointHeight, JointError> {
-    let pictures: Vec<(Sight, &InputSigma)> =
-        pictures.iter().filter_map(|(sights, inputs)| Some((mean_sight(sights)?, inputs))).collect();
+pub fn joint_height(pictures: &[Sights]) -> Result<JointHeight, JointError> {
+    let pictures: Vec<(Sight, &Sights)> =
+        pictures.iter().filter_map(|sights| Some((mean_sight(&sights.walls)?, sights))).collect();
     if pictures.len() < 2 {
         return Err(JointError::TooFew(pictures.len()));
     }
@@ -152,18 +161,20 @@ pub fn joint_height(pictures: &[(Vec<Sight>, InputSigma)]) -> Result<JointHeight
         height_mm = solution.x;
         overhang_mm = solution.y;
     }
-    let shares: Vec<Sensitivity> =
-        pictures.iter().zip(&by_picture).map(|((sight, _), a)| sight.sensitivity(height_mm, *a)).collect();
-    let terms = shares.iter().zip(&pictures).enumerate().map(|(i, (share, (_, inputs)))| (1.0, share, *inputs, i));
-    let sigma = combined_sigma(terms);
+    let part = |((sight, Sights { inputs, picture, .. }), a): (&(Sight, &Sights), &f64)| Part {
+        sensitivity: sight.sensitivity(height_mm, *a),
+        inputs: *inputs,
+        picture: *picture,
+    };
+    let parts: Vec<Part> = pictures.iter().zip(&by_picture).map(part).collect();
+    let sigma = combined_sigma(&parts);
     for (sight, _) in &pictures {
         possible_height(&sight.view, height_mm)?;
     }
     if sigma.total_mm > LARGEST_SHARE * height_mm {
         return Err(JointError::TooAlike { height_mm, sigma_mm: sigma.total_mm });
     }
-    let inputs = pictures.iter().map(|(_, inputs)| **inputs).collect();
-    Ok(JointHeight { height_mm, overhang_mm, shares, inputs, sigma })
+    Ok(JointHeight { height_mm, overhang_mm, parts, sigma })
 }
 
 /// The mean of the sights of one picture; `None` when there are none.
@@ -175,10 +186,10 @@ fn mean_sight(sights: &[Sight]) -> Option<Sight> {
 }
 
 /// The derivative of the height by each picture's b - a, and the solution (H, s) of the weighted normal equations.
-fn weighted_line(pictures: &[(Sight, &InputSigma)], height_mm: f64) -> Result<(Vec<f64>, Vector2<f64>), JointError> {
+fn weighted_line(pictures: &[(Sight, &Sights)], height_mm: f64) -> Result<(Vec<f64>, Vector2<f64>), JointError> {
     let weights: Vec<f64> = pictures
         .iter()
-        .map(|(sight, inputs)| {
+        .map(|(sight, Sights { inputs, .. })| {
             let sensitivity = sight.sensitivity(height_mm, 1.0);
             let noise = sensitivity.by_noise().map(|d| d * d).dot(&inputs.noise());
             let marks = (sensitivity.marks_mm_per_px * inputs.mark_px).powi(2);

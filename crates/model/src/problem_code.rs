@@ -16,6 +16,7 @@ coded_enum! {
         CardDoesNotFitProfile = "card_does_not_fit_profile": "no file of the card fits a pattern of the device profile",
         ObjectNeverMeasured = "object_never_measured": "`check`: no mark in the study gives a size of an object of objects.csv",
         TableStaysEmpty = "table_stays_empty": "`check`: no size that the study gives fits a table of study.toml",
+        SameCard = "same_card": "the card of a session holds the same files as that of another session, byte for byte",
         FoldersAlike = "folders_alike": "two folders of sessions or marks have one name in two Unicode forms",
         NoFiles = "no_files": "a stream that the profile declares has no file on the card",
         NotDeclared = "not_declared": "the profile declares no images, accelerometer or range sensor; sizes need all three",
@@ -98,6 +99,10 @@ coded_enum! {
         BaseUnderCamera = "base_under_camera": "the base lies under the camera, where a height cannot be told",
         NoLength = "no_length": "two marked ends are the same point",
         NotFourCorners = "not_four_corners": "a rectangle's outline does not have four corners",
+        MarksDisagree = "marks_disagree": "several marks of one size on one picture contradict each other; none of them is used",
+        MarkLeftOut = "mark_left_out": "a mark contradicts others of the same size, or points lie far off their outline; they are not used",
+        OutlineNotRound = "outline_not_round": "an outline that should be a circle is none",
+        SizesDisagree = "sizes_disagree": "the sizes of one thing by several images or raters differ by more than their uncertainties allow",
         BadMcap = "bad_mcap": "the recording in the work folder is not what was written there",
         McapNotWritten = "mcap_not_written": "a recording could not be written to the work folder",
         NoThread = "no_thread": "the system gave the program no thread",
@@ -221,6 +226,14 @@ impl ProblemCode {
             }
             Self::PictureNotSearched => "look at the picture; mark it by hand, or copy it from the card again",
             Self::MarksMisplaced => "move them to marks/RATER/SESSION by the command that is given",
+            Self::MarksDisagree | Self::MarkLeftOut => "delete the mark or the points that slipped, and run again",
+            Self::OutlineNotRound => {
+                "correct the points; outline one edge only, and name objects that are not round so in objects.csv"
+            }
+            Self::SameCard => "keep the card in one session, and move the other folder out of cards/",
+            Self::SizesDisagree => {
+                "look at the marks that `flags` names as outliers; without one, at all of them, or at [uncertainty]"
+            }
             Self::NothingToMeasure => "mark a diameter, width, length, height or the rim (docs/study.md)",
             Self::MarkOffPlane => "correct the mark, or check pitch and range of the image",
             Self::NoCircle => "mark more of the outline",

@@ -64,6 +64,9 @@ pub struct SessionStatus {
     pub sizes: usize,
     /// The problems of the session, losses and notes; empty when all is well.
     pub problems: Vec<Problem>,
+    /// SHA-256 over the contents of the files of its card, by which the same card in two sessions is seen; `None` without files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub card_sha256: Option<String>,
 }
 
 impl SessionStatus {

@@ -4,7 +4,7 @@
 use aim_batch_model::lens::{Division, Fisheye, PlumbBob, Radial};
 use aim_batch_model::{
     Camera, Container, Feature, InputSigma, Kind, LensModel, Mark, Method, ObjectMarks, Pose, Quantity, Shape, Source,
-    View, estimate, measure,
+    View, Wall, estimate, measure,
 };
 use nalgebra::{Point2, Point3, Rotation3, Vector3};
 
@@ -153,11 +153,13 @@ fn case(lens: LensModel, method: Method, pitch_deg: f64, roll_deg: f64, containe
 }
 
 fn height_of_tub(view: &View) -> Mark {
-    line(view, Quantity::Height, [[-80.0, 390.0, 0.0], [-82.0, 392.0, 41.0]])
+    line(view, Quantity::Height, [[-80.0, 390.0, 0.0], [-82.0, 392.0, 66.0]])
 }
 
 fn container(kind: Kind, shape: Shape) -> Container {
-    Container { kind, shape, rim_height_mm: None, wall: None }
+    // The lines of its height are marked on walls that lean in different ways.
+    let wall = (kind == Kind::Box).then_some(Wall::Sloped);
+    Container { kind, shape, rim_height_mm: None, wall }
 }
 
 #[test]

@@ -48,6 +48,9 @@ pub struct Marks {
 struct LabelMeFile<'a> {
     #[serde(borrow)]
     version: Option<&'a RawValue>,
+    /// X-AnyLabeling writes this key, and LabelMe does not.
+    #[serde(borrow)]
+    checked: Option<&'a RawValue>,
     #[serde(borrow)]
     shapes: Vec<&'a RawValue>,
     #[serde(rename = "imageWidth", borrow)]
@@ -69,8 +72,12 @@ impl LabelMeFile<'_> {
     }
 
     /// The frame in which the program marks that wrote the file, where its version tells: LabelMe shows pictures turned since 4.0 at
-    /// the latest. Other programs that write such files have versions below 4, and do or do not.
+    /// the latest. Other programs that write such files have versions below 4, and do or do not; X-AnyLabeling counts from 4 as well, shows
+    /// the stored picture or a turned one by its version, and is known by its key `checked`.
     fn frame_of_tool(&self) -> Option<MarksFrame> {
+        if self.checked.is_some() {
+            return None;
+        }
         let version = json::text_of(self.version)?;
         let major: u32 = version.split('.').next()?.trim().parse().ok()?;
         (major >= 4).then_some(MarksFrame::Shown)

@@ -3,11 +3,11 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use model::{SessionStatus, StageLog};
+use model::{ProblemCode, SessionStatus, StageLog};
 use pipeline::Ran;
 
 use super::print_message;
-use super::problems::{describe, kinds};
+use super::problems::{Kind, describe, kinds};
 use crate::logging::LogFormat;
 
 /// Number of kinds of problems that are listed, so that the summary fits on a screen. The results file has all of them.
@@ -83,8 +83,11 @@ fn problems(sessions: &[SessionStatus]) -> String {
     let all = in_order(true).chain(in_order(false));
     let kinds = kinds(all.flat_map(|session| session.problems.iter().map(labelled(session))));
     let mut text = String::new();
-    kinds.iter().take(KINDS_LISTED).for_each(|kind| describe(&mut text, "", kind));
-    let listed = kinds.len().min(KINDS_LISTED);
+    // Sizes that disagree are always listed: they are answers, and others would be taken for as good.
+    let is_listed = |(i, kind): &(usize, &Kind<'_>)| *i < KINDS_LISTED || kind[0].1.code == ProblemCode::SizesDisagree;
+    let listed: Vec<&Kind<'_>> = kinds.iter().enumerate().filter(is_listed).map(|(_, kind)| kind).collect();
+    listed.iter().for_each(|kind| describe(&mut text, "", kind));
+    let listed = listed.len();
     if kinds.len() > listed || kinds.iter().any(|kind| kind.len() > 1) {
         text.push_str("all of them: -v, or the metadata aim_batch.run of the results (docs/results.md)\n");
     }

@@ -209,7 +209,7 @@ fn stray_bytes_before_a_marker_are_passed_over_and_counted() {
         (tables, &b"\0"[..], 1),
         (tables, b"\x12\x34\x56", 3),
         (tables, b"\xff\xff\xff", 0), // fill bytes
-        (2, &[0; 511], 511),
+        (tables, &[0; 511], 511),
         (ends, b"\xff\xd7", 0), // a restart marker at the end of the scan
     ] {
         let odd = [&picture[..at], stray, &picture[at..]].concat();

@@ -1,5 +1,6 @@
 //! The reasons why marks do not give a size.
 
+use super::judge::APART;
 use crate::circle::CircleError;
 use crate::container::Shape;
 use crate::marks::Feature;
@@ -50,6 +51,19 @@ pub enum MeasureError {
     /// The ends of a line, or two corners, lie on one spot.
     #[error("the marked points lie on one spot: draw the mark again")]
     NoLength,
+    /// Several marks of one size contradict each other, and none is in the majority.
+    #[error(
+        "{marks} marks of one size give {smallest_mm:.1} to {largest_mm:.1} mm, which differ by more than {APART} of their \
+         uncertainties: delete the one that slipped"
+    )]
+    MarksDisagree {
+        /// The number of marks.
+        marks: usize,
+        /// The smallest size that they give.
+        smallest_mm: f64,
+        /// The largest size that they give.
+        largest_mm: f64,
+    },
     /// The rim of a square or rectangle is not outlined by its four corners.
     #[error("rim outline of a {shape}: expected its 4 corners, got {points} points")]
     NotFourCorners {
@@ -72,12 +86,14 @@ impl MeasureError {
     pub const fn problem_code(&self) -> ProblemCode {
         match self {
             Self::View(_) => ProblemCode::MarkOffPlane,
+            Self::Circle { source: CircleError::NotRound { .. }, .. } => ProblemCode::OutlineNotRound,
             Self::Circle { .. } => ProblemCode::NoCircle,
             Self::NoHeight => ProblemCode::NoHeight,
             Self::RimBelowFoot => ProblemCode::RimBelowFoot,
             Self::RimAboveCamera { .. } => ProblemCode::RimAboveCamera,
             Self::BaseUnderCamera => ProblemCode::BaseUnderCamera,
             Self::NoLength => ProblemCode::NoLength,
+            Self::MarksDisagree { .. } => ProblemCode::MarksDisagree,
             Self::NotFourCorners { .. } | Self::CornersNotInOrder { .. } => ProblemCode::NotFourCorners,
         }
     }

@@ -2,9 +2,12 @@
 
 use nalgebra::Point2;
 
+use super::MeasureError;
 use super::height::HeightLine;
+use super::judge::{Judge, LEANING};
 use crate::container::Quantity;
 use crate::marks::{Feature, Mark, ObjectMarks};
+use crate::view::View;
 
 /// The marks of an object, each with the number of its first point. Derivatives by marks stand in the order of the numbers.
 pub(crate) struct Numbered<'a> {
@@ -36,6 +39,15 @@ impl<'a> Numbered<'a> {
     /// The lines of heights, each from foot to rim.
     pub(crate) fn height_lines(&self) -> impl Iterator<Item = HeightLine> + '_ {
         self.lines(Quantity::Height).map(|(n, [foot, rim])| HeightLine { foot: (n, foot), rim: (n + 1, rim) })
+    }
+
+    /// The height lines without those that contradict the majority. Lines that give no height by their rays, as those of a wall that
+    /// leans over its foot, are not judged.
+    pub(crate) fn agreeing_height_lines(&self, view: &View, judge: &Judge) -> Result<Vec<HeightLine>, MeasureError> {
+        let heights: Result<Vec<_>, _> = self.height_lines().map(|line| line.by_ray(view, self.points)).collect();
+        let kept = heights.ok().map(|heights| judge.agreeing(&heights, LEANING)).transpose()?;
+        let is_kept = |i: usize| kept.as_ref().is_none_or(|kept| kept.contains(&i));
+        Ok(self.height_lines().enumerate().filter(|(i, _)| is_kept(*i)).map(|(_, line)| line).collect())
     }
 
     /// The outlines of a feature, each with the number of its first point.

@@ -77,7 +77,7 @@ fn columns_table(text: &mut String, columns: &[Column]) {
             ColumnType::Float => "float64",
             ColumnType::Count => "uint32",
             ColumnType::Flag => "bool",
-            ColumnType::TimeUtc => "timestamp[ns, UTC]",
+            ColumnType::TimeUtc => "timestamp[us, UTC]",
         };
         let empty = if column.nullable { "may be" } else { "never" };
         let _ = writeln!(text, "| `{}` | {type_name} | {empty} | {} |", column.name, column.meaning);

@@ -11,7 +11,7 @@ use crate::time::UtcNs;
 
 /// Version of both schemas. It rises when a column is removed, renamed, or changes its type, unit or meaning; a new
 /// column at the end of a schema does not raise it.
-pub const RESULTS_SCHEMA_VERSION: u32 = 1;
+pub const RESULTS_SCHEMA_VERSION: u32 = 2;
 
 /// One column of a schema.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -111,8 +111,8 @@ schema! {
         error_pct: Option<f64> = "100 (predicted_mm - truth_mm) / truth_mm",
         selected: bool = "whether the image counts for fused rows: still, pitch within the target window; true for fused rows",
         frames: u32 = "number of images behind the row",
-        spread_mm: Option<f64> = "sample SD between the images of a fused row; empty for fewer than two",
-        flags: String = "codes of what to know about the row, joined by commas: why the frame was not selected (docs/ledger.md), mark_outside_picture, outlier:IMAGE or outlier_rater:RATER for what lies too far off and counts less, or why there is no size; empty when there is nothing",
+        spread_mm: Option<f64> = "sample SD between the images of a fused row, or between the raters of a consensus; empty for fewer than two",
+        flags: String = "codes of what to know about the row, joined by commas: why the frame was not selected (docs/ledger.md), mark_outside_picture, inconsistent, outlier:IMAGE or outlier_rater:RATER for what lies too far off and counts less or not at all, mixed_methods for a consensus of best sizes by different methods, or why there is no size; empty when there is nothing",
         method_used: Option<Method> = "the method behind predicted_mm: for best the one that was taken, else the same as method; empty without a size",
         doubts: String = "assumptions of the method that are broken or not known to hold (docs/uncertainty.md), joined by commas; sigma_mm leaves them out; empty when there is nothing",
         sigma_mount_mm: Option<f64> = "part of sigma_mm from the angle of the camera on the device",
@@ -124,6 +124,7 @@ schema! {
         chi_squared_degrees: Option<u32> = "its degrees of freedom",
         consistency: Option<Verdict> = "whether what was fused differs by no more than its uncertainties allow: consistent or inconsistent",
         confidence: Option<f64> = "of a rim that the program found itself (docs/rims.md): how sure it is that it is a container's, 0 to 1; fused: mean of the images; empty for people's marks",
+        sigma_disagreement_mm: Option<f64> = "part of sigma_mm from the disagreement of what was fused, where that is more than its uncertainties allow; 0 where they agree",
     }
 }
 
@@ -215,6 +216,7 @@ impl ResultRow {
             chi_squared_degrees: None,
             consistency: None,
             confidence: None,
+            sigma_disagreement_mm: None,
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::container::{Kind, Shape};
 use crate::time::UtcNs;
 
 /// Version of the schema of `truth.parquet`. It rises by the same rule as that of the results.
-pub const TRUTH_SCHEMA_VERSION: u32 = 1;
+pub const TRUTH_SCHEMA_VERSION: u32 = 2;
 
 schema! {
     /// One row of `truth.parquet`: a container in an image of a simulated study, or an image without one.

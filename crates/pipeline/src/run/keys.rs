@@ -19,9 +19,9 @@ use crate::study::{
 use rims::RimShape;
 
 /// Version of what the signals stage gives. A change of meaning gives another number, and recordings are read anew.
-const SIGNALS_VERSION: u32 = 1;
+const SIGNALS_VERSION: u32 = 2;
 /// Version of what measuring gives, likewise.
-const MEASURE_VERSION: u32 = 5;
+const MEASURE_VERSION: u32 = 6;
 
 #[derive(Serialize)]
 struct SignalsParts<'a> {

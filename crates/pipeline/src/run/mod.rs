@@ -6,6 +6,7 @@ mod keys;
 mod measure;
 mod options;
 mod plan;
+mod same_cards;
 mod search;
 mod status;
 mod tally;
@@ -26,6 +27,7 @@ pub use options::RunOptions;
 pub(crate) use options::program_and_commit;
 pub use plan::Current;
 use plan::RunContext;
+use same_cards::note_same_cards;
 pub use status::{SessionState, StudyState, status};
 use write::Writing;
 
@@ -82,8 +84,11 @@ pub fn run<S: ResultSink>(
             tally.add(batch.carry_out(&batch.plan(&damaged)?)?);
         }
         let log = RunLog { started_utc, ..tally.log(options) };
+        note_same_cards(&mut tally.statuses);
         writing.write(&tally.statuses, log, start, sink)?;
         wrote = true;
+    } else {
+        note_same_cards(&mut tally.statuses);
     }
     Ok(Ran {
         done: tally.logs.len(),

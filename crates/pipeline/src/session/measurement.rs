@@ -3,7 +3,7 @@
 //! - Input: the marked objects of a session ([`Marked`]), and `[measure]` of study.toml.
 //! - Output: one [`Measurement`] for each object, rater, image, quantity and method.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use model::{
     Doubt, Estimate, InputSigma, MeasureError, Method, Problem, ProblemCode, Quantity, ResultRow, Severity, Stage,
@@ -138,6 +138,7 @@ fn report_unmeasured(
             problems.push(unmeasured(marked, *quantity, error));
         }
     }
+    problems.extend(left_out(marked, sizes));
     // Marks for a method that needs several images give nothing on one of them.
     if sizes.is_empty() && marked.session.study.spec.measure.methods.iter().any(|m| *m != Method::Joint) {
         problems.push(nothing(marked));
@@ -153,6 +154,37 @@ fn unmeasured(marked: &Marked<'_>, quantity: Quantity, error: &MeasureError) -> 
         fact: format!("{quantity} of '{}' marked by {}: {error}", marked.marks.object, marked.rater),
         remedy: "correct the marks in LabelMe and run again".to_owned(),
     }
+}
+
+/// One problem for each quantity of which a mark, or points of an outline, contradict the others and were left out.
+fn left_out(marked: &Marked<'_>, sizes: &[(Method, Quantity, Result<Estimate, MeasureError>)]) -> Vec<Problem> {
+    let mut facts: BTreeMap<Quantity, String> = BTreeMap::new();
+    for (_, quantity, size) in sizes {
+        let Ok(Estimate { measured, .. }) = size else { continue };
+        let lines = measured.left_out.map(|left| {
+            let (marks, used) = (left.marks, measured.marks);
+            format!(
+                "{marks} of {} marks ({:.1} mm) left out, which contradict the other {used}",
+                marks + used,
+                left.furthest_mm
+            )
+        });
+        let points = (measured.stray_points > 0)
+            .then(|| format!("{} points left out, which lie far off their outline", measured.stray_points));
+        let parts: Vec<String> = lines.into_iter().chain(points).collect();
+        if !parts.is_empty() {
+            facts.entry(*quantity).or_insert_with(|| format!("{:.1} mm: {}", measured.predicted_mm, parts.join("; ")));
+        }
+    }
+    let problem = |(quantity, fact): (Quantity, String)| Problem {
+        severity: Severity::Loss,
+        stage: Stage::Measure,
+        code: ProblemCode::MarkLeftOut,
+        place: marked.session.place_of(&marked.frame.image.file),
+        fact: format!("{quantity} of '{}' marked by {}, {fact}", marked.marks.object, marked.rater),
+        remedy: ProblemCode::MarkLeftOut.remedy().to_owned(),
+    };
+    facts.into_iter().map(problem).collect()
 }
 
 fn nothing(marked: &Marked<'_>) -> Problem {

@@ -9,7 +9,7 @@ use super::auto::AutoMarks;
 use super::bench::bench_session;
 use super::card_progress::CardProgress;
 use super::frames::Session;
-use super::fuse::fuse;
+use super::fuse::{disagreements, fuse};
 use super::ledger::{ledger, ledger_of_failed};
 use super::marked::marked;
 use super::measurement::measure_all;
@@ -20,6 +20,7 @@ use super::problems::without_host;
 use super::recording::{Recording, read as read_recording};
 use super::session_marks::SessionMarks;
 use super::shown::Shown;
+use crate::inputs::sha256_of_bytes;
 use crate::reporter::Reporter;
 use crate::stop::Stop;
 use crate::study::{SessionDir, Study};
@@ -134,6 +135,7 @@ impl Measuring<'_> {
         output.status.problems.append(&mut recording.problems);
         output.inputs_sha256.extend(prepared.session_toml_sha256.clone());
         let inputs = std::mem::take(&mut recording.inputs_sha256);
+        output.status.card_sha256 = card_sha256(inputs.values());
         output.inputs_sha256.extend(inputs.into_iter().map(|(file, sha)| (format!("cards/{}/{file}", dir.name), sha)));
         let mount_pitch_deg = study.spec.mount.pitch_offset_deg.unwrap_or(recording.mount_pitch_deg);
         let session = Session::new(study, dir, prepared, recording);
@@ -148,6 +150,7 @@ impl Measuring<'_> {
         output.shown = Shown::from_marked(&prepared.camera, &marked);
         let mut measurements = measure_all(&marked, &mut output.status.problems);
         let fused = fuse(study, &marked, &mut measurements);
+        output.status.problems.extend(disagreements(&dir.name, &fused));
         let asked = |row: &ResultRow| study.spec.measure.methods.contains(&row.method);
         let measured = measurements.into_iter().map(|measurement| measurement.row);
         output.results = measured.filter(asked).chain(fused).collect();
@@ -169,6 +172,13 @@ impl Measuring<'_> {
         output.auto = auto.by_image;
         marks
     }
+}
+
+/// SHA-256 over the hashes of a card's files, whatever their names and order; `None` without files.
+fn card_sha256<'a>(files: impl Iterator<Item = &'a String>) -> Option<String> {
+    let mut files: Vec<&str> = files.map(String::as_str).collect();
+    files.sort_unstable();
+    (!files.is_empty()).then(|| sha256_of_bytes(files.join("\n").as_bytes()))
 }
 
 /// Sets the counts of the status, and adds the problem of a session without any pose.

@@ -64,6 +64,7 @@ pub(super) fn frame_row(
         chi_squared_degrees: None,
         consistency: None,
         confidence: marked.found.map(|found| found.confidence),
+        sigma_disagreement_mm: None,
     };
     match estimate {
         Some(estimate) => with_sigma(row, &estimate.sigma),
@@ -95,6 +96,7 @@ pub(super) fn with_sigma(row: ResultRow, sigma: &SizeSigma) -> ResultRow {
         sigma_camera_mm: Some(sigma.camera_mm),
         sigma_mount_mm: Some(sigma.mount_mm),
         sigma_common_mm: Some(sigma.common_mm),
+        sigma_disagreement_mm: Some(sigma.disagreement_mm),
         ..row
     }
 }

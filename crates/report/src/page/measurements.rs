@@ -58,6 +58,7 @@ fn specs() -> Vec<Spec> {
         ("sigma_marks_mm", "sigma from marks (mm)", true, Number(2, |row| row.sigma_marks_mm)),
         ("sigma_camera_mm", "sigma from camera (mm)", true, Number(2, |row| row.sigma_camera_mm)),
         ("sigma_mount_mm", "sigma from mount (mm)", true, Number(2, |row| row.sigma_mount_mm)),
+        ("sigma_disagreement_mm", "sigma from disagreement (mm)", true, Number(2, |row| row.sigma_disagreement_mm)),
         ("sigma_common_mm", "sigma in common (mm)", true, Number(2, |row| row.sigma_common_mm)),
         ("frames", "images behind it", true, Count(|row| (row.level != Level::Frame).then_some(row.frames))),
         ("spread_mm", "spread (mm)", true, Number(2, |row| row.spread_mm)),

@@ -7,6 +7,7 @@
 mod answers;
 mod assets;
 mod data;
+mod disagreement;
 mod figure_view;
 mod measurements;
 mod pictures;
@@ -90,7 +91,7 @@ impl Page<'_> {
             policy: policy::content_security_policy(SCRIPT),
             style: STYLE,
             script: SCRIPT,
-            answers: summary.answers.iter().map(bare).collect::<Result<_, _>>()?,
+            answers: summary.answers.iter().chain(&summary.disagreement).map(bare).collect::<Result<_, _>>()?,
             summary,
             asked: with_files(&tables[..asked])?,
             more: with_files(&tables[asked..])?,

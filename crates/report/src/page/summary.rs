@@ -6,6 +6,7 @@ use model::validation::{ErrorSummary, coverage};
 use model::{FlowStep, Level, ResultRow, SessionStatus};
 
 use super::answers::{Answers, median_absolute};
+use super::disagreement;
 use crate::parquet::Results;
 use crate::table::Table;
 
@@ -17,6 +18,8 @@ pub(super) struct Summary {
     pub(super) cards: Vec<Card>,
     /// The answers by kind of container and quantity.
     pub(super) answers: Option<Table>,
+    /// The fused sizes whose images or raters do not agree.
+    pub(super) disagreement: Option<Table>,
 }
 
 /// A number with its label and a note.
@@ -39,6 +42,7 @@ impl Summary {
             sentences,
             cards,
             answers: answers.as_ref().map(Answers::table),
+            disagreement: disagreement::table(&results.rows),
         }
     }
 }

@@ -7,6 +7,10 @@ use polars::prelude::{
     NewChunkedArray as _, PolarsResult, Series, StringChunked, TimeUnit, TimeZone, UInt32Chunked,
 };
 
+/// Times are written in whole microseconds, rounded down: DuckDB 2.0.0 can neither subtract nor compare times in nanoseconds with a zone.
+/// No device has a clock that is better than that.
+const NS_PER_US: i64 = 1_000;
+
 /// The type of a column in memory and, through Polars, in the file.
 pub(super) fn data_type(column_type: ColumnType) -> DataType {
     match column_type {
@@ -14,7 +18,7 @@ pub(super) fn data_type(column_type: ColumnType) -> DataType {
         ColumnType::Float => DataType::Float64,
         ColumnType::Count => DataType::UInt32,
         ColumnType::Flag => DataType::Boolean,
-        ColumnType::TimeUtc => DataType::Datetime(TimeUnit::Nanoseconds, Some(TimeZone::UTC)),
+        ColumnType::TimeUtc => DataType::Datetime(TimeUnit::Microseconds, Some(TimeZone::UTC)),
     }
 }
 
@@ -44,7 +48,7 @@ impl Builder {
             (Self::Float(cells), Value::Float(number)) => cells.push(Some(number)),
             (Self::Count(cells), Value::Count(count)) => cells.push(Some(count)),
             (Self::Flag(cells), Value::Flag(flag)) => cells.push(Some(flag)),
-            (Self::TimeUtc(cells), Value::TimeUtc(time)) => cells.push(Some(time.0)),
+            (Self::TimeUtc(cells), Value::TimeUtc(time)) => cells.push(Some(time.0.div_euclid(NS_PER_US))),
             (builder, Value::Null) if column.nullable => builder.push_null(),
             (_, got) => return Err(CellError::Type { expected: column.column_type, got }),
         }
@@ -68,7 +72,7 @@ impl Builder {
             Self::Count(cells) => Series::new(name.into(), cells),
             Self::Flag(cells) => Series::new(name.into(), cells),
             Self::TimeUtc(cells) => Int64Chunked::from_slice_options(name.into(), &cells)
-                .into_datetime(TimeUnit::Nanoseconds, Some(TimeZone::UTC))
+                .into_datetime(TimeUnit::Microseconds, Some(TimeZone::UTC))
                 .into_series(),
         };
         series.into()
@@ -115,7 +119,7 @@ impl Cells {
             Self::Float(cells) => cells.get(row).map(Value::Float),
             Self::Count(cells) => cells.get(row).map(Value::Count),
             Self::Flag(cells) => cells.get(row).map(Value::Flag),
-            Self::TimeUtc(cells) => cells.get(row).map(|time| Value::TimeUtc(UtcNs(time))),
+            Self::TimeUtc(cells) => cells.get(row).map(|us| Value::TimeUtc(UtcNs(us.saturating_mul(NS_PER_US)))),
         }
         .unwrap_or(Value::Null)
     }

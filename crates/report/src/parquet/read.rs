@@ -239,8 +239,8 @@ fn check_column(frame: &DataFrame, column: &Column, path: &Path) -> Result<(), R
         .map_err(|_| ReadError::MissingColumn { path: path.to_owned(), column: column.name })?
         .dtype();
     // A time zone may be written as 'UTC' or '+00:00'; the numbers are the same.
-    let is_utc_ns = matches!(found, DataType::Datetime(TimeUnit::Nanoseconds, Some(_)));
-    if *found == data_type(column.column_type) || (column.column_type == ColumnType::TimeUtc && is_utc_ns) {
+    let is_utc_us = matches!(found, DataType::Datetime(TimeUnit::Microseconds, Some(_)));
+    if *found == data_type(column.column_type) || (column.column_type == ColumnType::TimeUtc && is_utc_us) {
         return Ok(());
     }
     Err(ReadError::ColumnType {

@@ -64,7 +64,7 @@ impl<R: Row> RowFile<R> {
         }
         let pairs = key_values.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect();
         // The metadata of a run is known only now, so it goes to the inner writer. There is no embedded Arrow schema: without
-        // it every reader takes Parquet's own types (string, double, timestamp[ns, UTC]) and not Polars' string views.
+        // it every reader takes Parquet's own types (string, double, timestamp[us, UTC]) and not Polars' string views.
         KeyValueMetadata::from_static(pairs)
             .collect(ParquetMetadataContext { arrow_schema: "" })
             .and_then(|pairs| self.writer.get_writer().lock().unwrap_or_else(PoisonError::into_inner).end(Some(pairs)))

@@ -13,7 +13,7 @@ pub fn row(object: &str, kind: Kind, quantity: Quantity, predicted_mm: Option<f6
         session: "s1".to_owned(),
         rater: "anna".to_owned(),
         image: Some("a.jpg".to_owned()),
-        time_utc: Some(UtcNs(1_700_000_000_000_000_001)),
+        time_utc: Some(UtcNs(1_700_000_000_000_001_000)),
         roll_deg: Some(0.0),
         predicted_mm,
         plane_z_mm: Some(0.0),

@@ -33,7 +33,9 @@ fn cell(column: &Column) -> BoxedStrategy<Value> {
         }
         ColumnType::Count => any::<u32>().prop_map(Value::Count).boxed(),
         ColumnType::Flag => any::<bool>().prop_map(Value::Flag).boxed(),
-        ColumnType::TimeUtc => any::<i64>().prop_map(|time| Value::TimeUtc(UtcNs(time))).boxed(),
+        ColumnType::TimeUtc => {
+            (i64::MIN / 1000..i64::MAX / 1000).prop_map(|us| Value::TimeUtc(UtcNs(1000 * us))).boxed()
+        }
     };
     if column.nullable { prop_oneof![Just(Value::Null), value].boxed() } else { value }
 }

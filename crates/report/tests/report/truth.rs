@@ -5,7 +5,7 @@ use model::{Kind, Shape, UtcNs};
 use report::{ReadError, read_truth, write_truth};
 
 fn rows() -> Vec<TruthRow> {
-    let row = TruthRow::of_image("s1", "IMAGES/a.JPG", UtcNs(1_770_019_200_250_000_001), [55.0, -1.5, 512.25]);
+    let row = TruthRow::of_image("s1", "IMAGES/a.JPG", UtcNs(1_770_019_200_250_001_000), [55.0, -1.5, 512.25]);
     let with = TruthRow {
         participant: Some("P001".to_owned()),
         object: Some("lunch box".to_owned()),

@@ -85,7 +85,7 @@ impl Found {
 impl RimHeight {
     /// The height as a size: its uncertainty was worked out where it was found, all of it in the part from the marks.
     fn estimate(&self, method: Method) -> Estimate {
-        let measured = Measured { quantity: Quantity::Height, predicted_mm: self.mm, plane_z_mm: 0.0, marks: 1 };
+        let measured = Measured::by_one_mark(Quantity::Height, self.mm, 0.0);
         let sensitivity = Sensitivity { by_source: PerSource::zeros(), marks_mm_per_px: 0.0 };
         let sigma = sensitivity.sigma(&InputSigma::NONE).with_marks(self.sigma_mm);
         Estimate { method, measured, sensitivity, sigma, wall_slope: None, doubts: Vec::new() }

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use model::{
-    Container, Estimate, InputSigma, JointHeight, Method, Quantity, Share, best_of, estimate, fuse, joint_height,
-    sights,
+    Container, Estimate, InputSigma, JointHeight, Method, Part, Quantity, Share, Sights, best_of, combined_sigma,
+    estimate, fuse, joint_height, sights,
 };
 
 use super::scene::Thing;
@@ -63,7 +63,8 @@ fn blank(thing: &Thing, quantity: Quantity, method: Method, level: Level) -> Tri
 fn with_best(mut trials: Vec<Trial>) -> Vec<Trial> {
     let mut best: BTreeMap<Quantity, Trial> = BTreeMap::new();
     for trial in &trials {
-        let surer = |than: &Trial| (!trial.claims, trial.sigma_mm) < (!than.claims, than.sigma_mm);
+        let relative = |trial: &Trial| trial.sigma_mm / trial.predicted_mm;
+        let surer = |than: &Trial| (!trial.claims, relative(trial)) < (!than.claims, relative(than));
         let taken = best.entry(trial.quantity).or_insert(*trial);
         if surer(taken) {
             *taken = *trial;
@@ -74,13 +75,8 @@ fn with_best(mut trials: Vec<Trial>) -> Vec<Trial> {
 }
 
 fn share(estimate: &Estimate, picture: usize, sigma: &InputSigma) -> Share {
-    Share {
-        value_mm: estimate.measured.predicted_mm,
-        sensitivity: estimate.sensitivity,
-        inputs: *sigma,
-        picture,
-        penalty: 1.0,
-    }
+    let part = Part { sensitivity: estimate.sensitivity, inputs: *sigma, picture };
+    Share::of_picture(estimate.measured.predicted_mm, part, 1.0)
 }
 
 fn fused(
@@ -103,8 +99,10 @@ fn joint(thing: &Thing, images: &[Image], sigma: &InputSigma) -> Vec<Trial> {
     if !matches!(thing.subject, Subject::UprightBowl | Subject::SlopedBowl | Subject::CurvedBowl) {
         return Vec::new();
     }
-    let pictures: Vec<_> =
-        images.iter().filter_map(|image| Some((sights(&image.view, &image.marks).ok()?, *sigma))).collect();
+    let sights_of = |(picture, image): (usize, &Image)| {
+        Some(Sights { walls: sights(&image.view, &image.marks, sigma).ok()?, inputs: *sigma, picture })
+    };
+    let pictures: Vec<Sights> = images.iter().enumerate().filter_map(sights_of).collect();
     let Ok(height) = joint_height(&pictures) else { return Vec::new() };
     let trial = Trial {
         predicted_mm: height.height_mm,
@@ -124,9 +122,10 @@ fn mouth(thing: &Thing, images: &[Image], height: &JointHeight, sigma: &InputSig
     }
     let fused = fuse(&shares)?;
     let camera_heights_mm: Vec<f64> = images.iter().map(|image| image.view.pose().camera_height_mm()).collect();
+    let parts = height.parts_on_plane(&shares, &fused.weights, &camera_heights_mm);
     Some(Trial {
         predicted_mm: fused.value_mm,
-        sigma_mm: height.sigma_on_plane(&shares, &fused.weights, &camera_heights_mm).total_mm,
+        sigma_mm: combined_sigma(&parts).with_disagreement(fused.sigma.disagreement_mm).total_mm,
         ..blank(thing, Quantity::Diameter, Method::Joint, Level::Session)
     })
 }

@@ -18,7 +18,8 @@ pub fn print_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
     print_message(&format!("marks of rims that were found: {files} files for LabelMe in {}\n", place.display()));
     if left > 0 {
         print_message(&format!(
-            "{left} more differ from what would be written, and were left as they are\n  -> remove those that are to be written anew\n"
+            "{left} more differ from what would be written, as corrections do, and were left as they are\n  -> run with \
+             --marks both, which takes these files instead of the search\n"
         ));
     }
 }

@@ -3,8 +3,10 @@
 use super::correction::Correction;
 use crate::container::{Container, Method, Quantity};
 use crate::marks::ObjectMarks;
+use crate::measure::Judge;
+use crate::sigma::InputSigma;
 use crate::source::Source;
-use crate::uncertainty::{Estimate, InputSigma, estimate};
+use crate::uncertainty::{Estimate, estimate_judged};
 use crate::view::View;
 
 /// A known size with the marks and the view by which it is measured.
@@ -44,7 +46,8 @@ impl BenchSize {
     /// The corrected view, and the estimate of the size on it; `None` where the size cannot be measured.
     fn estimate(&self, correction: &Correction) -> Option<(View, Estimate)> {
         let view = correction.apply(&self.view)?;
-        let sizes = estimate(&view, self.method, &self.container, &self.marks, &self.inputs);
+        let judge = Judge::trusting();
+        let sizes = estimate_judged(&view, self.method, &self.container, &self.marks, &self.inputs, &judge);
         Some((view, sizes.into_iter().find(|(quantity, _)| *quantity == self.quantity)?.1.ok()?))
     }
 

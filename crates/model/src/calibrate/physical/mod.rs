@@ -9,8 +9,8 @@ use std::collections::BTreeSet;
 use nalgebra::Matrix4;
 
 use super::held_out::{HeldOut, leave_one_out};
+use crate::sigma::{InputSigma, LEARNED};
 use crate::source::Source;
-use crate::uncertainty::{InputSigma, LEARNED};
 
 pub use bench_size::BenchSize;
 pub use correction::Correction;

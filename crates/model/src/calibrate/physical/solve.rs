@@ -9,8 +9,8 @@ use nalgebra::{DMatrix, DVector, Dyn};
 use super::bench_size::BenchSize;
 use super::correction::Correction;
 use super::{CorrectionError, prior_sd};
+use crate::sigma::{InputSigma, LEARNED};
 use crate::stats::{ROBUST_SD, median};
-use crate::uncertainty::{InputSigma, LEARNED};
 
 /// The solution of a fit.
 pub(super) struct Solution {

@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 
 use model::{
-    Container, FrameReason, Fused, JointHeight, Kind, Level, Method, Quantity, ResultRow, Shape, Share, estimate,
-    fuse as fuse_shares, joint_height, sights,
+    Container, FrameReason, Fused, JointHeight, Kind, Level, Method, Part, Quantity, ResultRow, Shape, Share, Sights,
+    SizeSigma, combined_sigma, estimate, fuse as fuse_shares, joint_height, sights,
 };
 
 use super::{Row, fused_row, with_sigma};
@@ -32,8 +32,8 @@ fn of_bowl(marked: &[&Marked<'_>], measurements: &[Measurement]) -> Option<Vec<R
     let seen: Vec<_> = marked
         .iter()
         .filter_map(|m| {
-            let sights = sights(&m.view(Method::Joint)?, m.marks).ok().filter(|sights| !sights.is_empty())?;
-            Some((*m, (sights, m.inputs)))
+            let walls = sights(&m.view(Method::Joint)?, m.marks, &m.inputs).ok().filter(|walls| !walls.is_empty())?;
+            Some((*m, Sights { walls, inputs: m.inputs, picture: m.number }))
         })
         .collect();
     let (pictures, sights): (Vec<&Marked<'_>>, Vec<_>) = seen.into_iter().unzip();
@@ -65,29 +65,25 @@ fn height_row(templates: &[&ResultRow], height: &JointHeight) -> Option<Row> {
         consistency: None,
     };
     let row = fused_row(templates, &fused, Level::Fused, &[])?;
-    Some(finished(row, height, &fused))
+    Some(finished(row, height, &fused.sigma, height.parts.clone()))
 }
 
 /// The row of the mouth on the plane that the images give together.
 fn diameter_row(pictures: &[&Marked<'_>], templates: &[&ResultRow], height: &JointHeight) -> Option<Row> {
     let (mut shares, mut camera_heights_mm) = (Vec::new(), Vec::new());
-    for (number, m) in pictures.iter().enumerate() {
+    for m in pictures {
         let view = m.view(Method::Joint)?;
         let known = Container { rim_height_mm: Some(height.height_mm), ..m.object.container };
         let sizes = estimate(&view, Method::Ray, &known, m.marks, &m.inputs);
         let diameter = sizes.into_iter().find(|(quantity, _)| *quantity == Quantity::Diameter);
         let Some((_, Ok(diameter))) = diameter else { continue };
-        shares.push(Share {
-            value_mm: diameter.measured.predicted_mm,
-            sensitivity: diameter.sensitivity,
-            inputs: m.inputs,
-            picture: number,
-            penalty: 1.0,
-        });
+        let part = Part { sensitivity: diameter.sensitivity, inputs: m.inputs, picture: m.number };
+        shares.push(Share::of_picture(diameter.measured.predicted_mm, part, 1.0));
         camera_heights_mm.push(view.pose().camera_height_mm());
     }
     let fused = fuse_shares(&shares)?;
-    let sigma = height.sigma_on_plane(&shares, &fused.weights, &camera_heights_mm);
+    let parts = height.parts_on_plane(&shares, &fused.weights, &camera_heights_mm);
+    let sigma = combined_sigma(&parts).with_disagreement(fused.sigma.disagreement_mm);
     let fused = Fused { sigma, consistency: None, ..fused };
     let row = fused_row(templates, &fused, Level::Fused, &[])?;
     let truth_mm = pictures.first()?.object.truth_mm.get(&Quantity::Diameter).copied();
@@ -99,10 +95,10 @@ fn diameter_row(pictures: &[&Marked<'_>], templates: &[&ResultRow], height: &Joi
         frames: u32::try_from(shares.len()).unwrap_or(u32::MAX),
         ..row
     };
-    Some(finished(row, height, &fused))
+    Some(finished(row, height, &fused.sigma, parts))
 }
 
-fn finished(row: ResultRow, height: &JointHeight, fused: &Fused) -> Row {
+fn finished(row: ResultRow, height: &JointHeight, sigma: &SizeSigma, parts: Vec<Part>) -> Row {
     let row = ResultRow {
         method: Method::Joint,
         method_used: Some(Method::Joint),
@@ -110,5 +106,12 @@ fn finished(row: ResultRow, height: &JointHeight, fused: &Fused) -> Row {
         flags: String::new(),
         ..row
     };
-    Row { row: with_sigma(row, &fused.sigma), sigma: fused.sigma, doubts: Vec::new(), weights: Vec::new() }
+    Row {
+        row: with_sigma(row, sigma),
+        sigma: *sigma,
+        doubts: Vec::new(),
+        weights: Vec::new(),
+        parts,
+        shared: Vec::new(),
+    }
 }

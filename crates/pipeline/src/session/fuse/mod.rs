@@ -5,22 +5,26 @@
 //! - Output: one row per object, rater, quantity and method, and one of all raters together; ranks and weights are set in
 //!   the measurements.
 
+mod consensus;
+mod disagreement;
 mod joint;
 #[cfg(test)]
 mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use model::{Doubt, ErrorStats, Fused, Level, Method, Quantity, ResultRow, Share, SizeSigma, fuse as fuse_shares};
+use model::{
+    Doubt, ErrorStats, Fused, Level, Method, Part, Quantity, ResultRow, Share, SizeSigma, Verdict, fuse as fuse_shares,
+    median, parts_of_sum,
+};
+
+pub(super) use disagreement::problems as disagreements;
 
 use super::found::fused_sigma;
 use super::marked::Marked;
 use super::measurement::Measurement;
 use super::row::{doubt_codes, error_pct, with_sigma};
 use crate::study::Study;
-
-/// The rater in rows of level consensus.
-const ALL_RATERS: &str = "all";
 
 /// Object, rater and quantity of one fused row.
 type Key<'a> = (&'a str, &'a str, Quantity);
@@ -34,21 +38,14 @@ pub(super) fn fuse(study: &Study, marked: &[Marked<'_>], measurements: &mut [Mea
     let asked = &study.spec.measure.methods;
     let most = study.spec.select.best_images.map_or(u32::MAX, |n| u32::try_from(n.get()).unwrap_or(u32::MAX));
     let mut of_rater: BTreeMap<Key<'_>, Vec<Row>> = BTreeMap::new();
-    let mut of_all: BTreeMap<Key<'_>, Vec<Row>> = BTreeMap::new();
     let mut weights = Vec::new();
-    for ((object, rater, quantity, method), group) in groups(measurements, most, true) {
+    for ((object, rater, quantity, method), group) in groups(measurements, most) {
         if method == Method::Best {
             continue; // the best of the fused sizes is taken below
         }
-        let fused = row_of(measurements, &group, Level::Fused);
+        let fused = row_of(measurements, &group);
         weights.extend(fused.iter().flat_map(|row| group.iter().copied().zip(row.weights.iter().copied())));
         of_rater.entry((object, rater, quantity)).or_default().extend(fused);
-    }
-    for ((object, rater, quantity, method), group) in groups(measurements, most, false) {
-        let raters: BTreeSet<&str> = group.iter().map(|&i| measurements[i].row.rater.as_str()).collect();
-        if raters.len() > 1 && method != Method::Best {
-            of_all.entry((object, rater, quantity)).or_default().extend(row_of(measurements, &group, Level::Consensus));
-        }
     }
     if asked.contains(&Method::Joint) || asked.contains(&Method::Best) {
         for row in joint::rows(marked, measurements) {
@@ -57,39 +54,56 @@ pub(super) fn fuse(study: &Study, marked: &[Marked<'_>], measurements: &mut [Mea
             of_rater.entry((&key.marks.object, key.rater, row.row.quantity)).or_default().push(row);
         }
     }
-    let rows = of_rater.into_values().chain(of_all.into_values()).flat_map(|rows| asked_for(rows, asked)).collect();
+    let of_all = consensus::rows(&of_rater);
+    let rows = of_rater.into_values().chain(of_all).flat_map(|rows| asked_for(rows, asked)).collect();
     for (i, weight) in weights {
         measurements[i].row.weight = Some(weight);
     }
     rows
 }
 
-/// A fused row with all by which the best is chosen.
+/// A fused row with all by which the best is chosen, and from which a consensus is made.
+#[derive(Clone)]
 struct Row {
     row: ResultRow,
     sigma: SizeSigma,
     doubts: Vec<Doubt>,
+    /// The weights of the measurements that were fused.
     weights: Vec<f64>,
+    /// The parts of the size from each picture.
+    parts: Vec<Part>,
+    /// For each measurement the weight and the part (mm) of its uncertainty that all images share; see [`fused_sigma`].
+    shared: Vec<(f64, f64)>,
 }
 
 /// The rows of the methods that were asked for, in the order of the methods, followed by the best of all of them if that was
-/// asked for.
+/// asked for and no row is of method 'best' already.
 fn asked_for(mut rows: Vec<Row>, asked: &[Method]) -> Vec<ResultRow> {
     rows.sort_by_key(|row| row.row.method);
-    let surest = rows
-        .iter()
-        .min_by(|a, b| a.doubts.len().cmp(&b.doubts.len()).then(a.sigma.total_mm.total_cmp(&b.sigma.total_mm)));
-    let best = surest.filter(|_| asked.contains(&Method::Best));
+    let has_best = rows.iter().any(|row| row.row.method == Method::Best);
+    let best = if has_best || !asked.contains(&Method::Best) { None } else { best_row(&rows) };
     let best = best.map(|best| ResultRow { method: Method::Best, ..best.row.clone() });
     rows.into_iter().map(|row| row.row).filter(|row| asked.contains(&row.method)).chain(best).collect()
 }
 
-/// Sets the ranks of the selected images for each size, the surest first; equally sure ones keep their order.
+/// The row with the fewest doubts, and among several of those the surest, if all were of one size.
+fn best_row(rows: &[Row]) -> Option<&Row> {
+    let size_mm = |row: &Row| row.row.predicted_mm.unwrap_or_default();
+    let middle_mm = median(rows.iter().map(size_mm).collect());
+    let sigma = |row: &Row| row.sigma.total_at(size_mm(row), middle_mm);
+    rows.iter().min_by(|a, b| a.doubts.len().cmp(&b.doubts.len()).then(sigma(a).total_cmp(&sigma(b))))
+}
+
+/// Sets the ranks of the selected images for each size, the surest first; equally sure ones keep their order. The
+/// uncertainties are compared as if all images had given the same size.
 fn rank(measurements: &mut [Measurement]) {
     for (_, mut group) in groups_owned(measurements) {
+        let size_mm = |i: &usize| measurements[*i].row.predicted_mm.unwrap_or_default();
+        let middle_mm = median(group.iter().map(size_mm).collect());
         let key = |i: &usize| {
             let m = &measurements[*i];
-            m.row.sigma_mm.unwrap_or(f64::INFINITY) * m.penalty.sqrt()
+            let sigma_mm = m.estimate.as_ref().map(|estimate| estimate.sigma.total_at(size_mm(i), middle_mm));
+            sigma_mm.unwrap_or(f64::INFINITY) * m.penalty.sqrt()
         };
         group.sort_by(|a, b| key(a).total_cmp(&key(b)));
         for (rank, i) in (1..).zip(group) {
@@ -101,12 +115,11 @@ fn rank(measurements: &mut [Measurement]) {
 type Groups<'a> = BTreeMap<(&'a str, &'a str, Quantity, Method), Vec<usize>>;
 
 /// The numbers of the measurements that go into one row: those of selected images whose rank is at most `most`.
-fn groups(measurements: &[Measurement], most: u32, by_rater: bool) -> Groups<'_> {
+fn groups(measurements: &[Measurement], most: u32) -> Groups<'_> {
     let mut groups = Groups::new();
     for (i, m) in measurements.iter().enumerate() {
         if m.row.selected && m.estimate.is_some() && m.row.rank.is_none_or(|rank| rank <= most) {
-            let rater = if by_rater { m.row.rater.as_str() } else { ALL_RATERS };
-            groups.entry((&m.row.object, rater, m.row.quantity, m.row.method)).or_default().push(i);
+            groups.entry((&m.row.object, &m.row.rater, m.row.quantity, m.row.method)).or_default().push(i);
         }
     }
     groups
@@ -117,33 +130,67 @@ fn groups_owned(measurements: &[Measurement]) -> BTreeMap<(String, String, Quant
     let owned = |((object, rater, quantity, method), group): ((&str, &str, Quantity, Method), Vec<usize>)| {
         ((object.to_owned(), rater.to_owned(), quantity, method), group)
     };
-    groups(measurements, u32::MAX, true).into_iter().map(owned).collect()
+    groups(measurements, u32::MAX).into_iter().map(owned).collect()
 }
 
 fn share(measurement: &Measurement) -> Option<Share> {
     let estimate = measurement.estimate.as_ref()?;
-    Some(Share {
-        value_mm: estimate.measured.predicted_mm,
-        sensitivity: estimate.sensitivity,
-        inputs: measurement.inputs,
-        picture: measurement.picture,
-        penalty: measurement.penalty,
-    })
+    let part = Part { sensitivity: estimate.sensitivity, inputs: measurement.inputs, picture: measurement.picture };
+    Some(Share::of_picture(estimate.measured.predicted_mm, part, measurement.penalty))
 }
 
-fn row_of(measurements: &[Measurement], group: &[usize], level: Level) -> Option<Row> {
-    let members: Vec<&Measurement> = group.iter().map(|&i| &measurements[i]).collect();
-    let shares: Vec<Share> = members.iter().filter_map(|m| share(m)).collect();
-    let fused = fuse_shares(&shares)?;
-    let shared = fused.weights.iter().copied().zip(members.iter().map(|m| m.shared_mm));
-    let sigma = fused_sigma(&fused.sigma, shared, members.first()?.inputs.mark_px);
-    let fused = Fused { sigma, ..fused };
-    let doubts: BTreeSet<Doubt> =
-        members.iter().filter_map(|m| m.estimate.as_ref()).flat_map(|e| e.doubts.iter().copied()).collect();
-    let doubts: Vec<Doubt> = doubts.into_iter().collect();
-    let rows: Vec<&ResultRow> = members.iter().map(|m| &m.row).collect();
-    let row = ResultRow { flags: flags(&rows, &fused, level), ..fused_row(&rows, &fused, level, &doubts)? };
-    Some(Row { row, sigma: fused.sigma, doubts, weights: fused.weights })
+/// The sizes that become one, with the rows that they come from.
+struct Members<'a> {
+    rows: Vec<&'a ResultRow>,
+    shares: Vec<Share>,
+    doubts: BTreeSet<Doubt>,
+    /// For each row, weight and shared part of what it was made from; see [`Row::shared`].
+    shared: Vec<Vec<(f64, f64)>>,
+}
+
+fn row_of(measurements: &[Measurement], group: &[usize]) -> Option<Row> {
+    let of_group: Vec<&Measurement> = group.iter().map(|&i| &measurements[i]).collect();
+    let estimates = of_group.iter().filter_map(|m| m.estimate.as_ref());
+    let members = Members {
+        rows: of_group.iter().map(|m| &m.row).collect(),
+        shares: of_group.iter().filter_map(|m| share(m)).collect(),
+        doubts: estimates.flat_map(|estimate| estimate.doubts.iter().copied()).collect(),
+        shared: of_group.iter().map(|m| vec![(1.0, m.shared_mm)]).collect(),
+    };
+    members.fused(Level::Fused, |row| format!("outlier:{}", in_flag(row.image.as_deref().unwrap_or_default())))
+}
+
+/// A name as a part of a code in `flags`, where commas are between codes.
+fn in_flag(name: &str) -> String {
+    name.replace(',', "_")
+}
+
+impl Members<'_> {
+    /// The row of all of them together; `outlier_flag` gives the flag that names a row which is off.
+    fn fused(self, level: Level, outlier_flag: impl Fn(&ResultRow) -> String) -> Option<Row> {
+        let fused = fuse_shares(&self.shares)?;
+        let weighted =
+            |(shared, w): (&Vec<(f64, f64)>, &f64)| shared.iter().map(|(v, mm)| (v * w, *mm)).collect::<Vec<_>>();
+        let shared: Vec<(f64, f64)> = self.shared.iter().zip(&fused.weights).flat_map(weighted).collect();
+        let mark_px = self.shares.first()?.parts.first()?.inputs.mark_px;
+        let sigma = fused_sigma(&fused.sigma, shared.iter().copied(), mark_px);
+        let fused = Fused { sigma, ..fused };
+        let doubts: Vec<Doubt> = self.doubts.into_iter().collect();
+        let inconsistent = fused.consistency.is_some_and(|c| c.verdict == Verdict::Inconsistent);
+        let flags: BTreeSet<String> = self
+            .rows
+            .iter()
+            .flat_map(|row| row.flags.split(','))
+            .filter(|flag| !flag.is_empty())
+            .map(str::to_owned)
+            .chain(fused.outliers.iter().map(|&i| outlier_flag(self.rows[i])))
+            .chain(inconsistent.then(|| Verdict::Inconsistent.code().to_owned()))
+            .collect();
+        let flags = flags.into_iter().collect::<Vec<_>>().join(",");
+        let row = ResultRow { flags, ..fused_row(&self.rows, &fused, level, &doubts)? };
+        let parts = parts_of_sum(&self.shares, &fused.weights);
+        Some(Row { row, sigma: fused.sigma, doubts, weights: fused.weights, parts, shared })
+    }
 }
 
 /// The row of the size that was fused from `rows`, without flags.
@@ -157,7 +204,6 @@ fn fused_row(rows: &[&ResultRow], fused: &Fused, level: Level, doubts: &[Doubt])
     let row = ResultRow {
         image: None,
         time_utc: None,
-        rater: if level == Level::Consensus { ALL_RATERS.to_owned() } else { first.rater.clone() },
         pitch_deg: mean(|row| row.pitch_deg),
         roll_deg: mean(|row| row.roll_deg),
         range_mm: mean(|row| row.range_mm),
@@ -179,23 +225,4 @@ fn fused_row(rows: &[&ResultRow], fused: &Fused, level: Level, doubts: &[Doubt])
         ..first.clone()
     };
     Some(with_sigma(row, &fused.sigma))
-}
-
-/// The flags of any of the rows, each code once, and the outliers: a rater all of whose sizes are off, else the image.
-fn flags(rows: &[&ResultRow], fused: &Fused, level: Level) -> String {
-    let mut all: BTreeSet<String> =
-        rows.iter().flat_map(|row| row.flags.split(',')).filter(|flag| !flag.is_empty()).map(str::to_owned).collect();
-    for &i in &fused.outliers {
-        let rater = &rows[i].rater;
-        let of_rater = || (0..rows.len()).filter(|&other| rows[other].rater == *rater);
-        let name = |text: &str| text.replace(',', "_");
-        all.insert(if level == Level::Consensus && of_rater().all(|other| fused.outliers.contains(&other)) {
-            format!("outlier_rater:{}", name(rater))
-        } else if level == Level::Consensus {
-            format!("outlier:{}@{}", name(rater), name(rows[i].image.as_deref().unwrap_or_default()))
-        } else {
-            format!("outlier:{}", name(rows[i].image.as_deref().unwrap_or_default()))
-        });
-    }
-    all.into_iter().collect::<Vec<_>>().join(",")
 }

@@ -27,13 +27,13 @@ fn row(rater: &str, image: &str, predicted_mm: Option<f64>, selected: bool) -> R
     }
 }
 
-/// A size of 200 mm is wrong by 3 % of range in all images alike, and by 2 mm of marks in each.
+/// A size is wrong by 3 % in all images alike, through the range, and by 2 mm of marks in each.
 fn measurement(rater: &str, image: &str, predicted_mm: f64, selected: bool) -> Measurement {
     let mut by_source = PerSource::zeros();
-    by_source[Source::RangeScale.index()] = 200.0;
+    by_source[Source::RangeScale.index()] = predicted_mm;
     let sensitivity = Sensitivity { by_source, marks_mm_per_px: 1.0 };
     let sigma = sensitivity.sigma(&INPUTS);
-    let measured = Measured { quantity: Quantity::Diameter, predicted_mm, plane_z_mm: 0.0, marks: 1 };
+    let measured = Measured::by_one_mark(Quantity::Diameter, predicted_mm, 0.0);
     let estimate = Estimate { method: Method::Ray, measured, sensitivity, sigma, wall_slope: None, doubts: Vec::new() };
     Measurement {
         row: with_sigma(row(rater, image, Some(predicted_mm), selected), &sigma),
@@ -64,9 +64,9 @@ fn selected_images_with_what_is_common_kept() {
     assert_eq!((row.level, &row.image, row.time_utc, row.frames), (Level::Fused, &None, None, 2));
     assert!((row.spread_mm.unwrap() - 8.0_f64.sqrt()).abs() < 1e-12);
     assert!((row.sigma_marks_mm.unwrap() - 2.0 / 2.0_f64.sqrt()).abs() < 1e-12, "marks are independent");
-    assert!((row.sigma_range_mm.unwrap() - 6.0).abs() < 1e-12, "the range's scale is common");
+    assert!((row.sigma_range_mm.unwrap() - 0.03 * 206.0).abs() < 1e-12, "the range's scale is common");
     assert_eq!((row.sigma_common_mm, row.sigma_pitch_mm), (row.sigma_range_mm, Some(0.0)));
-    assert!((row.sigma_mm.unwrap() - 38.0_f64.sqrt()).abs() < 1e-12);
+    assert!((row.sigma_mm.unwrap() - (0.03_f64 * 206.0).hypot(2.0_f64.sqrt())).abs() < 1e-12);
     // 4 mm apart, where 2 mm of SD each are known: chi-square 16 / 8.
     assert!((row.chi_squared.unwrap() - 2.0).abs() < 1e-9 && row.chi_squared_degrees == Some(1));
     assert_eq!(row.consistency, Some(Verdict::Consistent));
@@ -98,8 +98,44 @@ fn raters_stay_apart_and_are_joined_in_a_consensus_that_names_who_is_off() {
     assert_eq!(values, [fused("A"), fused("B"), fused("C"), fused("D"), ("all", Level::Consensus)]);
     let consensus = &rows[4];
     assert!((consensus.predicted_mm.unwrap() - 200.0).abs() < 4.0, "{consensus:?}");
-    assert_eq!((consensus.flags.as_str(), consensus.frames), ("outlier_rater:C", 1));
+    assert_eq!((consensus.flags.as_str(), consensus.frames), ("inconsistent,outlier_rater:C", 1));
     assert_eq!(consensus.consistency, Some(Verdict::Inconsistent));
+    let problems = disagreements("s", &rows);
+    assert_eq!(problems.len(), 1);
+    assert!(problems[0].fact.contains("off: C") && problems[0].severity == model::Severity::Note, "{problems:?}");
+}
+
+/// A rater with many images has one vote, as a rater with one image has.
+#[test]
+fn raters_count_alike_in_a_consensus() {
+    let mut all: Vec<_> = ["a", "b", "c", "d"].map(|image| measurement("A", image, 200.0, true)).into_iter().collect();
+    all.push(measurement("B", "a", 203.0, true));
+    let consensus = fused(&mut all).pop().unwrap();
+    // 3 % of 201.5 mm are common, 36.5 mm^2; of its own A has 1 mm of marks, B 2 mm.
+    let (a, b) = (1.0 / 37.5, 1.0 / 40.5);
+    assert!((consensus.predicted_mm.unwrap() - (200.0 * a + 203.0 * b) / (a + b)).abs() < 0.01);
+    assert_eq!((consensus.level, consensus.frames), (Level::Consensus, 4));
+}
+
+/// The ray puts A's size at 100 with a doubt, the coaxial method at 200 without; B has the ray's without a doubt.
+#[test]
+fn the_best_of_all_is_of_the_methods_that_are_the_best_of_each() {
+    let by = |rater: &str, method: Method, mm: f64, doubts: Vec<Doubt>| {
+        let plain = measurement(rater, "a", mm, true);
+        let estimate = plain.estimate.map(|estimate| Estimate { method, doubts, ..estimate });
+        Measurement { row: ResultRow { method, method_used: Some(method), ..plain.row }, estimate, ..plain }
+    };
+    let mut all = [
+        by("A", Method::Ray, 100.0, vec![Doubt::WallSloped]),
+        by("A", Method::Coaxial, 200.0, Vec::new()),
+        by("B", Method::Ray, 202.0, Vec::new()),
+    ];
+    let rows = fuse(&study(|spec| spec.measure.methods = vec![Method::Ray, Method::Best]), &[], &mut all);
+    let consensus: Vec<&ResultRow> = rows.iter().filter(|row| row.level == Level::Consensus).collect();
+    let [ray, best] = consensus.as_slice() else { panic!("{consensus:?}") };
+    assert!((ray.predicted_mm.unwrap() - 151.0).abs() < 2.0 && ray.flags == "inconsistent", "{ray:?}");
+    assert_eq!((best.method, best.flags.as_str(), best.doubts.as_str()), (Method::Best, "mixed_methods", ""));
+    assert!((best.predicted_mm.unwrap() - 201.0).abs() < 0.1, "{best:?}");
 }
 
 #[test]
@@ -108,7 +144,7 @@ fn an_image_that_is_off_is_named() {
         .into_iter()
         .map(|(image, mm)| measurement("A", image, mm, true))
         .collect();
-    assert_eq!(fused(&mut all)[0].flags, "outlier:c");
+    assert_eq!(fused(&mut all)[0].flags, "inconsistent,outlier:c");
     assert!(all[2].row.weight.unwrap() < 0.1);
 }
 
