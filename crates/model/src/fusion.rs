@@ -182,7 +182,12 @@ fn robust_weights(shares: &[Share]) -> (Vec<f64>, Vec<f64>) {
         for _ in 0..STEPS {
             off = standardised_residuals(shares, &weights, value_mm, &covariance);
             off.iter_mut().for_each(|t| *t /= scale);
-            weights = normalised(&base.iter().zip(&off).map(|(w, t)| w * factor(t.abs())).collect::<Vec<_>>());
+            let reweighted: Vec<f64> = base.iter().zip(&off).map(|(w, t)| w * factor(t.abs())).collect();
+            // Between two groups of sizes all may be far off; then the start stands.
+            if reweighted.iter().sum::<f64>() <= 0.0 {
+                break;
+            }
+            weights = normalised(&reweighted);
             let next = weighted_mean(shares, &weights);
             let settled = (next - value_mm).abs() <= 1e-12 * next.abs();
             value_mm = next;

@@ -37,7 +37,7 @@ pub fn estimate(
     marks: &ObjectMarks,
     inputs: &InputSigma,
 ) -> Vec<(Quantity, Result<Estimate, MeasureError>)> {
-    estimate_judged(view, method, container, marks, inputs, &Judge::new(inputs))
+    estimate_judged(view, method, container, marks, inputs, &Judge::of_method(method, view, inputs))
 }
 
 /// The sizes of [`estimate`], whose marks are judged by `judge`.

@@ -25,7 +25,7 @@ fn study() -> (StudyFolder, Vec<Picture>) {
         let mut shots = [(55.0, 560.0), (58.0, 540.0)].map(|(pitch, range)| shot(pitch, roll_deg, range, 0.0, 1.0));
         for (i, shot) in shots.iter_mut().enumerate() {
             let mut marks = shot.marks.take().unwrap();
-            let more = line("plate/diameter", [[12.0, 24.0], [51.5, 24.25]]);
+            let more = line("plate/length", [[12.0, 24.0], [51.5, 24.25]]);
             marks["shapes"].as_array_mut().unwrap().push(more);
             let marks = tools::rounded(marks);
             let name = format!("{session}/images/{}.jpg", StudyFolder::image_stem(i));

@@ -4,10 +4,12 @@ use nalgebra::{Matrix3, Point2, RowVector3, Vector2, Vector3};
 
 use super::MeasureError;
 use crate::circle::{Circle, algebraic_fit};
+use crate::container::Method;
 use crate::located::Located;
 use crate::sensed::Sensed;
 use crate::sigma::{InputSigma, Sensitivity};
 use crate::source::{SOURCES, SourceCovariance};
+use crate::view::View;
 
 /// Marks of one size that differ by more than this many standard uncertainties of their difference contradict each other.
 pub(super) const APART: f64 = 6.0;
@@ -79,6 +81,17 @@ impl Judge {
             ..*inputs
         };
         Self { inputs, common: inputs.common() }
+    }
+
+    /// The judge of a method's sizes. [`Method::Paper`] takes the roll as zero, so that the whole roll is an error of its pose.
+    pub(crate) fn of_method(method: Method, view: &View, inputs: &InputSigma) -> Self {
+        match method {
+            Method::Paper => {
+                let tilt_rad = inputs.tilt_rad.max(view.pose().roll_rad().abs());
+                Self::new(&InputSigma { tilt_rad, ..*inputs })
+            }
+            Method::Ray | Method::Coaxial | Method::Joint | Method::Best => Self::new(inputs),
+        }
     }
 
     /// A judge that takes all marks as they are, for views that are known to be wrong, as those of a calibration on its way are.

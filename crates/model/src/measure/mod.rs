@@ -80,7 +80,7 @@ pub fn measure(
     container: &Container,
     marks: &ObjectMarks,
 ) -> Vec<(Quantity, Result<Measured, MeasureError>)> {
-    let judge = Judge::new(&InputSigma::default());
+    let judge = Judge::of_method(method, view, &InputSigma::default());
     let sizes = sizes(&view_of_method(view, method), method, container, marks, &judge);
     sizes.into_iter().map(|(quantity, size)| (quantity, size.map(|size| size.measured))).collect()
 }
