@@ -68,7 +68,6 @@ pub struct MarksSpec {
     /// The camera of the pictures that were marked, if those are not the raw ones.
     pub camera: Option<String>,
     /// The frame of people's marks on pictures that EXIF tells viewers to turn, where it is not known from the files.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub frame: Option<MarksFrame>,
     /// The source of the marks: people, the program, or both.
     pub source: MarksSource,
