@@ -110,7 +110,7 @@ fn people_read_losses_with_remedies_and_a_verdict() {
         "fails: would fail\n  loss [ingest] card_does_not_fit_profile: cards/fails\n",
         "loses: would lose data (and ",
         "no-card: would fail\n",
-        "-> copy the SD card there, or remove the marks of this session\n",
+        "-> copy the SD card there, or move this session's marks out of the study\n",
         "the study as a whole\n  note [study] object_never_measured: objects.csv\n      'bowl' has no mark",
         "4 sessions: 1 would run whole, 1 would lose data, 2 would fail\n",
     ] {

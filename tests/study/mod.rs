@@ -4,6 +4,7 @@
 
 mod annotate;
 mod auto;
+mod corrected;
 mod figures;
 mod flow;
 mod four_corners;

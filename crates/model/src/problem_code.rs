@@ -215,7 +215,7 @@ impl ProblemCode {
             Self::MarksOfOtherPicture => "mark the picture of the card, or declare [marks] camera",
             Self::BadMark => "correct the shape in LabelMe (docs/study.md)",
             Self::MarksTwice => "keep one of them",
-            Self::MarksWithoutImage => "give the file the image's name, or remove it",
+            Self::MarksWithoutImage => "give the file the image's name, or move it out of the marks",
             Self::MarkedImageDropped => "see the problem of the image itself",
             Self::AmbiguousMarks => "rename all but one in the copy of the card, and its marks",
             Self::UnknownObject => "add it to objects.csv, or correct the label in LabelMe",
@@ -226,7 +226,7 @@ impl ProblemCode {
             }
             Self::PictureNotSearched => "look at the picture; mark it by hand, or copy it from the card again",
             Self::MarksMisplaced => "move them to marks/RATER/SESSION by the command that is given",
-            Self::MarksDisagree | Self::MarkLeftOut => "delete the mark or the points that slipped, and run again",
+            Self::MarksDisagree | Self::MarkLeftOut => "correct the mark or the points that slipped, and run again",
             Self::OutlineNotRound => {
                 "correct the points; outline one edge only, and name objects that are not round so in objects.csv"
             }

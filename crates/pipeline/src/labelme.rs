@@ -17,11 +17,14 @@ use corners::FourCorners;
 pub use error::MarksError;
 pub use frame::{FrameFault, MarkedPicture, MarksFrame};
 use rims::Found;
+pub use seal::MarksAuthor;
+pub(crate) use seal::author_of;
 pub(crate) use write::{AutoRim, Shape as OutShape, text_of, text_of_shapes};
 
 mod corners;
 mod error;
 mod frame;
+mod seal;
 mod write;
 
 /// A file of marks is never larger than this (LabelMe may embed the picture itself).
@@ -31,8 +34,10 @@ const LARGEST_FILE_BYTES: u64 = 256 * 1024 * 1024;
 const EXPECTED: &str = "OBJECT/diameter, OBJECT/width, OBJECT/length or OBJECT/height as a line, OBJECT/rim or OBJECT/base as a polygon, OBJECT/rim of a square or rectangle as an oriented rectangle";
 
 /// The content of one file.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Marks {
+    /// Who made them.
+    pub author: MarksAuthor,
     /// The marks by object, in the order of their names.
     pub objects: Vec<ObjectMarks>,
     /// The found rims behind the marks that the program made, by object.
@@ -51,6 +56,9 @@ struct LabelMeFile<'a> {
     /// X-AnyLabeling writes this key, and LabelMe does not.
     #[serde(borrow)]
     checked: Option<&'a RawValue>,
+    /// A key of this program's own, with the seal of its marks; LabelMe keeps keys that it does not know.
+    #[serde(rename = "aim_batch", borrow)]
+    key: Option<&'a RawValue>,
     #[serde(borrow)]
     shapes: Vec<&'a RawValue>,
     #[serde(rename = "imageWidth", borrow)]
@@ -176,7 +184,7 @@ pub fn parse(bytes: &[u8], path: &Path, picture: impl Into<MarkedPicture>) -> Re
         }
     }
     let objects = objects.into_iter().map(|(object, marks)| ObjectMarks { object, marks }).collect();
-    Ok(Marks { objects, found, refused, four_corners })
+    Ok(Marks { author: file.author(), objects, found, refused, four_corners })
 }
 
 /// The frame of the marks of a file that states these sides of its picture.

@@ -1,6 +1,6 @@
 //! Writes found rims as files of marks that a person can check and correct.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write as _};
 use std::path::{Component, Path, PathBuf};
 
@@ -8,9 +8,9 @@ use ingest::card::entry_named;
 use ingest::orientation_of_file;
 use model::{Orientation, Stage};
 
-use crate::labelme::{AutoRim, MarkedPicture, text_of};
+use crate::labelme::{AutoRim, MarkedPicture, MarksAuthor, author_of, read_bytes, text_of};
 use crate::session::{Prepared, SessionOutput};
-use crate::study::{AUTO, SessionDir, Study, stem_of};
+use crate::study::{AUTO, SessionDir, Study, marks_in, stem_of};
 use crate::work::{WorkError, WorkFolder};
 
 /// The files that were written, or left alone.
@@ -18,9 +18,31 @@ use crate::work::{WorkError, WorkFolder};
 pub struct MarksWritten {
     /// The number of files with rims that are now in the folder as they would be written.
     pub files: usize,
-    /// The number of files that were there with other content: somebody's corrections, or the rims of another run. They were
-    /// left alone.
-    pub left: usize,
+    /// The number of files that a person has made or corrected. They were left alone.
+    pub corrected: usize,
+    /// The number of files with the rims of another run. They were left alone.
+    pub of_other_run: usize,
+}
+
+impl MarksWritten {
+    fn count(&mut self, done: Done) {
+        *match done {
+            Done::AsWritten => &mut self.files,
+            Done::LeftCorrected => &mut self.corrected,
+            Done::LeftOtherRun => &mut self.of_other_run,
+        } += 1;
+    }
+}
+
+/// What became of one file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Done {
+    /// It holds what was to be written.
+    AsWritten,
+    /// It holds a person's marks, and was left alone.
+    LeftCorrected,
+    /// It holds the rims of another run, and was left alone.
+    LeftOtherRun,
 }
 
 /// The reason why marks were not written.
@@ -64,11 +86,12 @@ pub fn write_marks(
         let Some(text) = work.state.output(&dir.name, Stage::Measure)? else { continue };
         let refuse = |source| WriteMarksError::Kept { session: dir.name.clone(), source };
         let output: SessionOutput = serde_json::from_str(&text).map_err(refuse)?;
-        if let (false, Ok(prepared)) = (output.auto.is_empty(), Prepared::new(study, dir, program)) {
-            let session =
-                Writer { study, dir, prepared: &prepared, folder: there_or_new(&folder.join(AUTO), &dir.name) };
+        let Ok(prepared) = Prepared::new(study, dir, program) else { continue };
+        let session = Writer { study, dir, prepared: &prepared, folder: there_or_new(&folder.join(AUTO), &dir.name) };
+        if !output.auto.is_empty() {
             session.write(&output.auto, &mut written)?;
         }
+        written.corrected += session.corrected_without_rims(&output.auto);
     }
     Ok(written)
 }
@@ -102,9 +125,19 @@ impl Writer<'_> {
             let path = there_or_new(&self.folder, &format!("{stem}.json"));
             let done =
                 text.and_then(|text| write_unless_other(&path, &text)).map_err(|source| failed(&path, source))?;
-            *(if done { &mut written.files } else { &mut written.left }) += 1;
+            written.count(done);
         }
         Ok(())
+    }
+
+    /// The number of files that a person has made for images in which the program found nothing.
+    fn corrected_without_rims(&self, auto: &BTreeMap<String, Vec<AutoRim>>) -> usize {
+        let with_rims: BTreeSet<String> = auto.keys().map(|image| stem_of(image)).collect();
+        let is_corrected = |path: &PathBuf| {
+            !with_rims.contains(&stem_of(&path.to_string_lossy()))
+                && read_bytes(path).is_ok_and(|bytes| author_of(&bytes) == MarksAuthor::Person)
+        };
+        marks_in(&self.folder).unwrap_or_default().iter().filter(|path| is_corrected(path)).count()
     }
 }
 
@@ -149,15 +182,17 @@ fn failed(path: &Path, source: io::Error) -> WriteMarksError {
     WriteMarksError::File { path: path.to_owned(), source }
 }
 
-/// Whether the file now holds this text. A file that held another text is left alone.
-fn write_unless_other(path: &Path, text: &str) -> io::Result<bool> {
+/// Writes a new file. One that is there is left alone, whatever it holds.
+fn write_unless_other(path: &Path, text: &str) -> io::Result<Done> {
     match std::fs::read(path) {
-        Ok(there) => return Ok(there == text.as_bytes()),
+        Ok(there) if there == text.as_bytes() => return Ok(Done::AsWritten),
+        Ok(there) if author_of(&there) == MarksAuthor::Person => return Ok(Done::LeftCorrected),
+        Ok(_) => return Ok(Done::LeftOtherRun),
         Err(error) if error.kind() == io::ErrorKind::NotFound => {}
         Err(error) => return Err(error),
     }
     write_whole(path, text)?;
-    Ok(true)
+    Ok(Done::AsWritten)
 }
 
 /// Writes a file aside and renames it.
@@ -193,10 +228,14 @@ mod tests {
     fn a_file_that_differs_is_left_alone() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.json");
-        assert!(write_unless_other(&path, "mine").unwrap());
-        assert!(write_unless_other(&path, "mine").unwrap(), "as it would be written");
-        assert!(!write_unless_other(&path, "other").unwrap());
+        assert_eq!(write_unless_other(&path, "mine").unwrap(), Done::AsWritten);
+        assert_eq!(write_unless_other(&path, "mine").unwrap(), Done::AsWritten, "as it would be written");
+        assert_eq!(write_unless_other(&path, "other").unwrap(), Done::LeftCorrected, "no seal");
         assert_eq!(std::fs::read(&path).unwrap(), b"mine");
+        let sealed = text_of(&[], "a.jpg", [4, 3]).unwrap();
+        std::fs::write(&path, &sealed).unwrap();
+        assert_eq!(write_unless_other(&path, "other").unwrap(), Done::LeftOtherRun);
+        assert_eq!(std::fs::read(&path).unwrap(), sealed.as_bytes());
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 

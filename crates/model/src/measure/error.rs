@@ -54,7 +54,7 @@ pub enum MeasureError {
     /// Several marks of one size contradict each other, and none is in the majority.
     #[error(
         "{marks} marks of one size give {smallest_mm:.1} to {largest_mm:.1} mm, which differ by more than {APART} of their \
-         uncertainties: delete the one that slipped"
+         uncertainties: correct the one that slipped"
     )]
     MarksDisagree {
         /// The number of marks.

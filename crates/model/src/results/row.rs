@@ -112,7 +112,7 @@ schema! {
         selected: bool = "whether the image counts for fused rows: still, pitch within the target window; true for fused rows",
         frames: u32 = "number of images behind the row",
         spread_mm: Option<f64> = "sample SD between the images of a fused row, or between the raters of a consensus; empty for fewer than two",
-        flags: String = "codes of what to know about the row, joined by commas: why the frame was not selected (docs/ledger.md), mark_outside_picture, inconsistent, outlier:IMAGE or outlier_rater:RATER for what lies too far off and counts less or not at all, mixed_methods for a consensus of best sizes by different methods, or why there is no size; empty when there is nothing",
+        flags: String = "codes of what to know about the row, joined by commas: why the frame was not selected (docs/ledger.md), mark_outside_picture, corrected where a person has made or changed marks of the rater auto, inconsistent, outlier:IMAGE or outlier_rater:RATER for what lies too far off and counts less or not at all, mixed_methods for a consensus of best sizes by different methods, or why there is no size; empty when there is nothing",
         method_used: Option<Method> = "the method behind predicted_mm: for best the one that was taken, else the same as method; empty without a size",
         doubts: String = "assumptions of the method that are broken or not known to hold (docs/uncertainty.md), joined by commas; sigma_mm leaves them out; empty when there is nothing",
         sigma_mount_mm: Option<f64> = "part of sigma_mm from the angle of the camera on the device",

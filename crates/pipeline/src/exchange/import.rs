@@ -266,7 +266,7 @@ impl Import<'_> {
             fact: fact.to_owned(),
         };
         if placed.is_empty() {
-            let fact = "holds marks, of which this file has none; delete it if they are no longer wanted";
+            let fact = "holds marks, of which this file has none, and is left as it is; move it out of the marks if they are no longer wanted";
             imported.notes.push(there_is(fact));
             return Ok(());
         }

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use rims::Found;
 
 use super::frame::MarkedPicture;
+use super::seal::{FileKey, Sealed, seal_of};
 
 /// The version of LabelMe whose files these are like.
 const LABELME_VERSION: &str = "5.4.1";
@@ -43,6 +44,8 @@ struct File<'a> {
     image_height: u32,
     #[serde(rename = "imageWidth")]
     image_width: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    aim_batch: Option<FileKey>,
 }
 
 #[derive(Serialize)]
@@ -73,31 +76,44 @@ impl<'a> Shape<'a> {
     }
 }
 
-/// The text of a file with these rims. `image_path` is the way to the picture from where the file will be. The rims are in
-/// the frame of the stored picture, and the text is in the one that LabelMe shows.
+/// The text of a file with these rims, sealed as the program's own work. `image_path` is the way to the picture from where the file will
+/// be. The rims are in the frame of the stored picture, and the text is in the one that LabelMe shows.
 pub(crate) fn text_of(
     rims: &[AutoRim],
     image_path: &str,
     picture: impl Into<MarkedPicture>,
 ) -> serde_json::Result<String> {
-    text_of_shapes(rims.iter().map(Shape::from_rim).collect(), image_path, picture)
+    let mut file = file_of(rims.iter().map(Shape::from_rim).collect(), image_path, picture.into());
+    let sealed = file
+        .shapes
+        .iter()
+        .map(|shape| Sealed::new(&shape.label, shape.shape_type, &shape.points, shape.aim_batch.as_ref()));
+    file.aim_batch = Some(FileKey { marks_sha256: seal_of(sealed.collect())? });
+    text(&file)
 }
 
-/// The text of a file with these shapes; see [`text_of`].
+/// The text of a file with these shapes, which are a person's; see [`text_of`].
 pub(crate) fn text_of_shapes(
-    mut shapes: Vec<Shape<'_>>,
+    shapes: Vec<Shape<'_>>,
     image_path: &str,
     picture: impl Into<MarkedPicture>,
 ) -> serde_json::Result<String> {
-    let picture = picture.into();
+    text(&file_of(shapes, image_path, picture.into()))
+}
+
+fn text(file: &File<'_>) -> serde_json::Result<String> {
+    serde_json::to_string_pretty(file).map(|text| text + "\n")
+}
+
+/// The file with these shapes, carried over to the frame that LabelMe shows.
+fn file_of<'a>(mut shapes: Vec<Shape<'a>>, image_path: &'a str, picture: MarkedPicture) -> File<'a> {
     let frame = picture.written_frame();
     let [image_width, image_height] = picture.size_in(frame);
     for point_px in shapes.iter_mut().flat_map(|shape| shape.points.to_mut()) {
         *point_px = picture.from_stored(frame, *point_px);
     }
     let (version, flags, image_data) = (LABELME_VERSION, NoFlags {}, None);
-    let file = File { version, flags, shapes, image_path, image_data, image_height, image_width };
-    serde_json::to_string_pretty(&file).map(|text| text + "\n")
+    File { version, flags, shapes, image_path, image_data, image_height, image_width, aim_batch: None }
 }
 
 #[cfg(test)]

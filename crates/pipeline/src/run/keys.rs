@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::calibration::CalibrationFile;
 use crate::inputs::{sha256_of_bytes, sha256_of_file};
-use crate::labelme::MarksFrame;
+use crate::labelme::{self, MarksAuthor, MarksFrame, author_of};
 use crate::session::Prepared;
 use crate::signals::ReadingSettings;
 use crate::study::{
@@ -21,7 +21,7 @@ use rims::RimShape;
 /// Version of what the signals stage gives. A change of meaning gives another number, and recordings are read anew.
 const SIGNALS_VERSION: u32 = 2;
 /// Version of what measuring gives, likewise.
-const MEASURE_VERSION: u32 = 6;
+const MEASURE_VERSION: u32 = 7;
 
 #[derive(Serialize)]
 struct SignalsParts<'a> {
@@ -148,14 +148,14 @@ impl<'a> MeasureParts<'a> {
             objects_csv,
             names: study.names.get(&dir.name),
             layout: &dir.problems,
-            raters: if source.reads() { dir.marks.keys().map(String::as_str).collect() } else { Vec::new() },
+            raters: if source.reads_all() { dir.marks.keys().map(String::as_str).collect() } else { Vec::new() },
             marks_source: *source,
         }
     }
 
-    /// The files of marks that are read.
+    /// The files of marks that are looked at.
     fn marks_files(&self, dir: &SessionDir) -> Vec<(String, PathBuf)> {
-        if self.marks_source.reads() { dir.marks_files() } else { Vec::new() }
+        if self.marks_source.reads_all() { dir.marks_files() } else { auto_files(dir) }
     }
 
     /// These settings, and what the file system says of the marks.
@@ -170,19 +170,32 @@ impl<'a> MeasureParts<'a> {
 
     /// The key of measuring: these settings, and the contents of the marks.
     pub fn key(&self, dir: &SessionDir) -> Result<String, serde_json::Error> {
-        hash(&(self, contents(self.marks_files(dir))))
+        let mut files = self.marks_files(dir);
+        if !self.marks_source.reads_all() {
+            // Files that a run wrote do not count, so they do not make the next one measure again.
+            files.retain(|(_, path)| {
+                labelme::read_bytes(path).map_or(true, |bytes| author_of(&bytes) == MarksAuthor::Person)
+            });
+        }
+        hash(&(self, contents(files)))
     }
 
-    /// The key of the search for rims; none where there is no search. Of the marks it depends on the files of the rater auto alone:
-    /// images that they hold are not searched, and names that they hold are taken.
+    /// The key of the search for rims; none where there is no search. Of the marks it depends on the files of the rater auto alone, where
+    /// all files are read: images that they hold are then not searched, and names that they hold are taken.
     pub fn search_key(&self, dir: &SessionDir) -> Result<Option<String>, serde_json::Error> {
         if self.searched.search.is_none() {
             return Ok(None);
         }
-        let mut files = self.marks_files(dir);
-        files.retain(|(name, _)| name.starts_with(&format!("{AUTO}/")));
+        let files = if self.marks_source.reads_all() { auto_files(dir) } else { Vec::new() };
         hash(&(&self.searched, contents(files))).map(Some)
     }
+}
+
+/// The files of marks of the rater auto.
+fn auto_files(dir: &SessionDir) -> Vec<(String, PathBuf)> {
+    let mut files = dir.marks_files();
+    files.retain(|(name, _)| name.starts_with(&format!("{AUTO}/")));
+    files
 }
 
 /// SHA-256 of each file, by its name.

@@ -6,6 +6,7 @@ use model::{
 };
 
 use super::marked::Marked;
+use crate::labelme::MarksAuthor;
 use rims::{Found, HeightSource};
 
 /// The sizes by one method: of people's marks as they are, of a found rim with the height that the program measured.
@@ -26,7 +27,9 @@ pub(super) fn estimates(
     // A height that is common among bowls is no measurement; and a foot or floor was found by exact geometry, not by the
     // paper's.
     let source = found.height_as(container).source;
-    let is_seen = matches!(source, HeightSource::Foot | HeightSource::Floor) && method == Method::Ray;
+    // The height was measured together with the rim that was found, and not with one that a person has moved.
+    let is_as_found = marked.author == MarksAuthor::Program;
+    let is_seen = is_as_found && matches!(source, HeightSource::Foot | HeightSource::Floor) && method == Method::Ray;
     let kept = sizes.into_iter().filter(|(quantity, _)| *quantity != Quantity::Height || is_seen);
     kept.map(|(quantity, size)| (quantity, size.map(|estimate| with_shared(estimate, &marked.inputs)))).collect()
 }

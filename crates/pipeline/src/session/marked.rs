@@ -5,7 +5,8 @@ use model::{InputSigma, Method, ObjectMarks, Problem, ProblemCode, Severity, Sta
 use super::frames::{Frame, Session, inputs_of};
 use super::session_marks::{MarkedObject, SessionMarks};
 use crate::calibration::corrected_view;
-use crate::study::Object;
+use crate::labelme::MarksAuthor;
+use crate::study::{AUTO, Object};
 use rims::Found;
 
 /// One object as one rater marked it on one image.
@@ -19,11 +20,18 @@ pub(super) struct Marked<'a> {
     pub marks: &'a ObjectMarks,
     /// The found rim behind the marks, where the program made them.
     pub found: Option<Found>,
+    /// Who made the marks as they are now.
+    pub author: MarksAuthor,
     /// The uncertainties of this image's inputs.
     pub inputs: InputSigma,
 }
 
 impl Marked<'_> {
+    /// Whether they are marks of the rater [`AUTO`] that a person has made or changed.
+    pub(super) fn is_corrected(&self) -> bool {
+        self.rater == AUTO && self.author == MarksAuthor::Person
+    }
+
     /// The view that a method works with, a calibration applied; none without a pose.
     pub(super) fn view(&self, method: Method) -> Option<View> {
         let view = View::new(self.session.marks_camera, self.frame.signals.pose_for(method)?);
@@ -46,9 +54,9 @@ pub(super) fn marked<'a>(
                 continue;
             }
             let inputs = inputs_of(session.study, frame);
-            all.extend(objects.iter().map(|MarkedObject { marks, object, found }| {
-                let found = *found;
-                Marked { session, number, frame, rater, object, marks, found, inputs }
+            all.extend(objects.iter().map(|MarkedObject { marks, object, found, author }| {
+                let (found, author) = (*found, *author);
+                Marked { session, number, frame, rater, object, marks, found, author, inputs }
             }));
         }
     }

@@ -63,6 +63,6 @@ pub(super) fn missing_card(dir: &SessionDir) -> Problem {
         code: ProblemCode::MissingCard,
         place: format!("cards/{}", dir.name),
         fact: format!("there are marks{by}, but no card"),
-        remedy: "copy the SD card there, or remove the marks of this session".to_owned(),
+        remedy: "copy the SD card there, or move this session's marks out of the study".to_owned(),
     }
 }

@@ -18,7 +18,7 @@ use super::plausible;
 use super::prepared::Prepared;
 use super::problems::without_host;
 use super::recording::{Recording, read as read_recording};
-use super::session_marks::SessionMarks;
+use super::session_marks::{Reading, SessionMarks};
 use super::shown::Shown;
 use crate::inputs::sha256_of_bytes;
 use crate::reporter::Reporter;
@@ -163,9 +163,9 @@ impl Measuring<'_> {
     fn marks(&self, session: &Session<'_>, auto: AutoMarks, output: &mut SessionOutput) -> SessionMarks {
         let problems = &mut output.status.problems;
         let mut marks = SessionMarks::new(self.study, self.dir);
-        if self.study.spec.marks.source.reads() || self.is_bench {
-            marks.read(session, problems, &mut output.inputs_sha256);
-        }
+        let which =
+            if self.study.spec.marks.source.reads_all() || self.is_bench { Reading::All } else { Reading::Corrections };
+        marks.read(session, which, problems, &mut output.inputs_sha256);
         problems.extend(auto.problems);
         marks.add_found(session, &auto.by_image, problems);
         problems.extend(marks.unused_names(session, auto.searched));

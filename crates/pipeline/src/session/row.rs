@@ -5,6 +5,7 @@ use model::{Doubt, Estimate, FrameReason, Level, MeasureError, Method, Pose, Qua
 
 use super::found::height_source;
 use super::marked::Marked;
+use crate::labelme::MarksAuthor;
 use rims::HeightSource;
 
 /// The row of one size on one image.
@@ -63,7 +64,8 @@ pub(super) fn frame_row(
         chi_squared: None,
         chi_squared_degrees: None,
         consistency: None,
-        confidence: marked.found.map(|found| found.confidence),
+        // What the program was sure of was its own rim.
+        confidence: marked.found.filter(|_| marked.author == MarksAuthor::Program).map(|found| found.confidence),
         sigma_disagreement_mm: None,
     };
     match estimate {
@@ -79,6 +81,7 @@ fn flags(marked: &Marked<'_>, error: Option<&MeasureError>) -> String {
     flags.extend((signals.reason != FrameReason::Selected).then(|| signals.reason.code()));
     flags.extend(signals.flags.iter().map(|flag| flag.code()));
     flags.extend((!marked.marks.inside_picture(picture_px)).then_some("mark_outside_picture"));
+    flags.extend(marked.is_corrected().then_some("corrected"));
     let is_common = height_source(marked) == Some(HeightSource::Common);
     flags.extend(is_common.then_some("rim_height_common"));
     flags.extend(error.map(|error| error.problem_code().code()));

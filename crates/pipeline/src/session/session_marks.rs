@@ -14,7 +14,7 @@ use super::frames::Session;
 use super::naming::Naming;
 use super::problems::LINK_FACT;
 use crate::inputs::sha256_of_bytes;
-use crate::labelme::{self, AutoRim, MarksError};
+use crate::labelme::{self, AutoRim, MarksAuthor, MarksError, author_of};
 use crate::study::{AUTO, Object, SessionDir, Study, marks_in, stem_of};
 use rims::Found;
 
@@ -32,15 +32,26 @@ pub(super) struct MarkedObject {
     pub object: Object,
     /// The found rim, where the program made the marks.
     pub found: Option<Found>,
+    /// Who made them as they are now.
+    pub author: MarksAuthor,
+}
+
+/// The files of marks to read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reading {
+    /// Those of all raters.
+    All,
+    /// Those of the rater [`AUTO`] that a person has made or corrected.
+    Corrections,
 }
 
 impl MarkedObject {
     /// The marks with their object: the one of objects.csv, else the container that a found rim looks like. The marks come
     /// back as the error where neither is there.
-    fn new(study: &Study, marks: ObjectMarks, found: Option<Found>) -> Result<Self, ObjectMarks> {
+    fn new(study: &Study, marks: ObjectMarks, found: Option<Found>, author: MarksAuthor) -> Result<Self, ObjectMarks> {
         let unlisted = || Some(Object { container: found?.container(), truth_mm: BTreeMap::new() });
         match study.objects.get(&marks.object).cloned().or_else(unlisted) {
-            Some(object) => Ok(Self { marks, object, found }),
+            Some(object) => Ok(Self { marks, object, found, author }),
             None => Err(marks),
         }
     }
@@ -52,47 +63,56 @@ impl SessionMarks {
         Self { by_image: BTreeMap::new(), naming: Naming::for_session(study, dir) }
     }
 
-    /// Reads the files of all raters. What cannot be used becomes a problem; the rest is kept. The SHA-256 of every file
-    /// that could be read is added to `inputs_sha256`.
+    /// Reads files of raters. What cannot be used becomes a problem; the rest is kept. The SHA-256 of every file that could be read
+    /// and is used is added to `inputs_sha256`.
     pub(super) fn read(
         &mut self,
         session: &Session<'_>,
+        which: Reading,
         problems: &mut Vec<Problem>,
         inputs_sha256: &mut BTreeMap<String, String>,
     ) {
         let images = images_by_stem(session);
-        problems
-            .extend(marks_beside_pictures(session, |stem| images.get(stem)?.first().map(|image| image.orientation)));
-        for (rater, dir) in &session.dir.marks {
+        if which == Reading::All {
+            let orientation_of = |stem: &str| images.get(stem)?.first().map(|image| image.orientation);
+            problems.extend(marks_beside_pictures(session, orientation_of));
+        }
+        let is_read = |rater: &str| which == Reading::All || rater == AUTO;
+        for (rater, dir) in session.dir.marks.iter().filter(|(rater, _)| is_read(rater)) {
             for path in files_of(session, dir, problems) {
                 let place = session.study.relative(&path);
-                match self.read_file(session, &images, &path, problems, inputs_sha256) {
-                    Ok((image, objects)) => {
+                match self.read_file(session, &images, &path, which, problems, inputs_sha256).transpose() {
+                    None => {}
+                    Some(Ok((image, objects))) => {
                         let by_rater = self.by_image.entry(image).or_default();
                         if by_rater.insert(rater.clone(), objects).is_some() {
                             problems.push(twice(place));
                         }
                     }
-                    Err(problem) => problems.push(problem),
+                    Some(Err(problem)) => problems.push(problem),
                 }
             }
         }
     }
 
-    /// The image that a file belongs to, and the marks in the file by object.
+    /// The image that a file belongs to, and the marks in the file by object; none where the file is not to be read.
     fn read_file(
         &mut self,
         session: &Session<'_>,
         images: &ImagesByStem<'_>,
         path: &Path,
+        which: Reading,
         problems: &mut Vec<Problem>,
         inputs_sha256: &mut BTreeMap<String, String>,
-    ) -> Result<(String, Vec<MarkedObject>), Problem> {
+    ) -> Result<Option<(String, Vec<MarkedObject>)>, Problem> {
         let place = session.study.relative(path);
         let refuse = |error: MarksError| {
             problem(error.code(), place.clone(), error.to_string(), "correct the marks in LabelMe and run again")
         };
         let bytes = labelme::read_bytes(path).map_err(refuse)?;
+        if which == Reading::Corrections && author_of(&bytes) == MarksAuthor::Program {
+            return Ok(None); // the rims of an earlier run: this one finds its own
+        }
         inputs_sha256.insert(place.clone(), sha256_of_bytes(&bytes));
         let image = image_of(images, &stem_of(&path.to_string_lossy()), &place);
         let orientation = image.as_ref().map_or(Orientation::Upright, |image| image.orientation);
@@ -106,7 +126,7 @@ impl SessionMarks {
         };
         let marked = marks.objects.into_iter().map(with_found).collect();
         let named = self.naming.rename(marked, &place, problems);
-        Ok((image.to_owned(), known_objects(session, named, &place, problems)))
+        Ok(Some((image.to_owned(), known_objects(session, named, marks.author, &place, problems))))
     }
 
     /// Adds the found rims as marks of rater [`AUTO`]. On an image for which that rater has a file, the file counts.
@@ -123,8 +143,9 @@ impl SessionMarks {
             }
             let found = rims.iter().map(|rim| (rim.marks(), Some(rim.found))).collect();
             let named = self.naming.rename(found, &session.place_of(image), problems);
-            let marked =
-                named.into_iter().filter_map(|(marks, found)| MarkedObject::new(session.study, marks, found).ok());
+            let marked = named
+                .into_iter()
+                .filter_map(|(marks, found)| MarkedObject::new(session.study, marks, found, MarksAuthor::Program).ok());
             by_rater.insert(AUTO.to_owned(), marked.collect());
         }
     }
@@ -200,7 +221,7 @@ fn image_of<'i, 'a>(images: &'i ImagesByStem<'a>, stem: &str, place: &str) -> Re
         None | Some([]) => refuse(
             ProblemCode::MarksWithoutImage,
             format!("the card has no image named {stem}"),
-            "give the file the image's name, or remove it",
+            "give the file the image's name, or move it out of the marks",
         ),
         Some([image @ Image { dropped: None, .. }]) => Ok(image),
         Some([Image { dropped: Some(reason), .. }]) => refuse(
@@ -222,12 +243,13 @@ fn image_of<'i, 'a>(images: &'i ImagesByStem<'a>, stem: &str, place: &str) -> Re
 fn known_objects(
     session: &Session<'_>,
     marks: Vec<(ObjectMarks, Option<Found>)>,
+    author: MarksAuthor,
     place: &str,
     problems: &mut Vec<Problem>,
 ) -> Vec<MarkedObject> {
     let (mut known, mut unknown) = (Vec::new(), Vec::new());
     for (marks, found) in marks {
-        match MarkedObject::new(session.study, marks, found) {
+        match MarkedObject::new(session.study, marks, found, author) {
             Ok(marked) => known.push(marked),
             Err(marks) => unknown.push(marks),
         }

@@ -12,7 +12,8 @@ pub enum MarksSource {
     /// The study's files of marks. No picture is decoded.
     #[default]
     Manual,
-    /// The program, which finds rims in the selected images. Files of marks are not read.
+    /// The program, which finds rims in the selected images. Of the files of marks, those of the rater `auto` that a person has made or
+    /// corrected count; others are not read.
     Auto,
     /// Both. Where rater `auto` has a file for an image, the file counts, and the image is not searched.
     Both,
@@ -32,9 +33,9 @@ impl MarksSource {
         }
     }
 
-    /// Whether files of marks are read.
+    /// Whether the files of marks of all raters are read.
     #[must_use]
-    pub fn reads(self) -> bool {
+    pub fn reads_all(self) -> bool {
         self != Self::Auto
     }
 

@@ -74,7 +74,7 @@ impl Study {
         let time_zone = jiff::tz::TimeZone::get(&spec.time_zone)
             .map_err(|source| StudyError::TimeZone { name: spec.time_zone.clone(), source })?;
         let objects = objects::read_objects(&dir.join("objects.csv"))?;
-        let sessions = sessions::find(dir, spec.marks.source.reads())?;
+        let sessions = sessions::find(dir, spec.marks.source.reads_all())?;
         let study = Self {
             names: names::read_names(&dir.join(NAMES_FILE), &objects, &sessions)?,
             objects,

@@ -7,19 +7,25 @@ use pipeline::{Annotated, MarksWritten, NotAnnotated};
 use crate::commands::print_message;
 use crate::logging::LogFormat;
 
-/// Reports how many files of marks there are now, and how many were left because somebody has changed them.
+/// Reports how many files of marks there are now, and how many were left as they are.
 pub fn print_marks(written: MarksWritten, folder: &Path, format: LogFormat) {
-    let MarksWritten { files, left } = written;
+    let MarksWritten { files, corrected, of_other_run } = written;
     let place = folder.join("auto");
     if format == LogFormat::Json {
-        tracing::info!(files, left, "marks of rims that were found, in {}", place.display());
+        tracing::info!(files, corrected, of_other_run, "marks of rims that were found, in {}", place.display());
         return;
     }
     print_message(&format!("marks of rims that were found: {files} files for LabelMe in {}\n", place.display()));
-    if left > 0 {
+    if corrected > 0 {
         print_message(&format!(
-            "{left} more differ from what would be written, as corrections do, and were left as they are\n  -> run with \
-             --marks both, which takes these files instead of the search\n"
+            "{corrected} more hold what a person has made or corrected, and were left as they are\n  -> in the study's marks/ they \
+             count, also with --marks auto\n"
+        ));
+    }
+    if of_other_run > 0 {
+        print_message(&format!(
+            "{of_other_run} more hold the rims of another run, and were left as they are\n  -> give --write-marks another folder \
+             for those of this run\n"
         ));
     }
 }

@@ -58,7 +58,8 @@ pub(crate) struct Search<'a> {
 
 impl Search<'_> {
     /// Looks for rims in the selected images, one picture at a time in the order of time, so that nothing depends on what
-    /// runs beside it. Where files of marks are read, images for which rater `auto` has a file are left out.
+    /// runs beside it. Where all files of marks are read, images for which rater `auto` has a file are left out. A search without
+    /// files is the same whatever people correct, so that containers keep their names.
     pub fn run(&self, recording: &Recording) -> Result<AutoMarks, SearchError> {
         let source = self.study.spec.marks.source;
         let mut auto = AutoMarks::default();
@@ -66,7 +67,7 @@ impl Search<'_> {
             return Ok(auto);
         }
         auto.searched = true;
-        let (checked, taken) = if source.reads() { self.checked(recording) } else { Default::default() };
+        let (checked, taken) = if source.reads_all() { self.checked(recording) } else { Default::default() };
         let refuse = |error| SearchError::Recording(Box::new(bad_mcap(&self.dir.name, &error)));
         let mut reader = SessionReader::open(self.mcap).map_err(refuse)?;
         let mut seen = Vec::new();
