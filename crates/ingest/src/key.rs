@@ -18,7 +18,7 @@ use crate::progress::{IngestProgress, NoProgress};
 use crate::source::SessionSource;
 
 /// Version of what ingest writes. A change of layout or meaning gives another number, and all sessions are ingested anew.
-pub const INGEST_VERSION: u32 = 5;
+pub const INGEST_VERSION: u32 = 6;
 
 /// SHA-256 over the session's name, the profile, the size of the camera's pictures, the time zone, [`INGEST_VERSION`], name and
 /// SHA-256 of every file that the profile's patterns fit, and what there is to tell of what else lies there. Reads all of

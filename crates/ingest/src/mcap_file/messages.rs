@@ -3,7 +3,7 @@
 
 /// Topic `/imu/acceleration`: specific force in the device frame (x right, y down, z forward), in g.
 ///
-/// A message holds consecutive samples; its own time is that of the first. Sample i is `i * step_ns` later where `step_ns`
+/// A message holds consecutive samples of less than a second; its own time is that of the first. Sample i is `i * step_ns` later where `step_ns`
 /// is not 0, and `offset_ns[i]` later otherwise. The same holds for the other sensor messages.
 #[derive(Clone, PartialEq, prost::Message, foxglove::Encode)]
 pub(crate) struct AccelerationBlock {

@@ -26,6 +26,10 @@ pub(crate) mod topic {
 /// The frame that images and calibration refer to: x right, y down, z forward.
 pub(crate) const CAMERA_FRAME: &str = "camera";
 
+/// A message holds samples of less than this time. Readers look messages up by the time of their first sample, so a window of time in
+/// the middle of a longer one would seem to be empty.
+pub(crate) const LONGEST_MESSAGE_NS: u64 = 1_000_000_000;
+
 /// Sensor messages gather to about this.
 pub(crate) const SENSOR_CHUNK_BYTES: u64 = 1024 * 1024;
 

@@ -14,7 +14,7 @@ use tempfile::NamedTempFile;
 use super::calibration::calibration;
 use super::messages::{AccelerationBlock, ExtraBlock, ImageFile, RangeBlock};
 use super::metadata::Records;
-use super::{CAMERA_FRAME, SENSOR_CHUNK_BYTES, timestamp, topic};
+use super::{CAMERA_FRAME, LONGEST_MESSAGE_NS, SENSOR_CHUNK_BYTES, timestamp, topic};
 use crate::parse::image_header::Encoding;
 use crate::summary::ImageEntry;
 use crate::timeline::{Block, Times};
@@ -117,21 +117,25 @@ impl SessionWriter {
     /// Writes samples of the accelerometer.
     pub fn acceleration(&mut self, block: Block, extra: &[String]) -> Result<(), WriteError> {
         self.keep_in_order(&block.times)?;
-        let time = block.times.first();
-        let (step_ns, offset_ns) = wire_times(&block.times);
-        self.carry(time, (step_ns, &offset_ns), block.extra, extra)?;
-        let Ok([x_g, y_g, z_g]) = <[Vec<f32>; 3]>::try_from(block.channels) else { return Ok(()) };
-        self.write(topic::ACCELERATION, time, &AccelerationBlock { step_ns, offset_ns, x_g, y_g, z_g }).map(|_| ())
+        for Block { times, channels, extra: columns, .. } in block.parts(LONGEST_MESSAGE_NS) {
+            let (time, (step_ns, offset_ns)) = (times.first(), wire_times(&times));
+            self.carry(time, (step_ns, &offset_ns), columns, extra)?;
+            let Ok([x_g, y_g, z_g]) = <[Vec<f32>; 3]>::try_from(channels) else { continue };
+            self.write(topic::ACCELERATION, time, &AccelerationBlock { step_ns, offset_ns, x_g, y_g, z_g })?;
+        }
+        Ok(())
     }
 
     /// Writes samples of the range sensor.
     pub fn range(&mut self, block: Block, extra: &[String]) -> Result<(), WriteError> {
         self.keep_in_order(&block.times)?;
-        let time = block.times.first();
-        let (step_ns, offset_ns) = wire_times(&block.times);
-        self.carry(time, (step_ns, &offset_ns), block.extra, extra)?;
-        let Ok([range_mm]) = <[Vec<f32>; 1]>::try_from(block.channels) else { return Ok(()) };
-        self.write(topic::RANGE, time, &RangeBlock { step_ns, offset_ns, range_mm }).map(|_| ())
+        for Block { times, channels, extra: columns, .. } in block.parts(LONGEST_MESSAGE_NS) {
+            let (time, (step_ns, offset_ns)) = (times.first(), wire_times(&times));
+            self.carry(time, (step_ns, &offset_ns), columns, extra)?;
+            let Ok([range_mm]) = <[Vec<f32>; 1]>::try_from(channels) else { continue };
+            self.write(topic::RANGE, time, &RangeBlock { step_ns, offset_ns, range_mm })?;
+        }
+        Ok(())
     }
 
     /// The samples of a sensor are at their end.

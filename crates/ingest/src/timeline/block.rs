@@ -70,9 +70,119 @@ impl Times {
     }
 }
 
+impl Block {
+    /// The block in parts, each of which spans less than `most_ns` (at least 1), in order; all but the last are as long as that allows.
+    /// Every sample keeps its time, to 1 ns where they are even.
+    pub fn parts(mut self, most_ns: u64) -> Vec<Self> {
+        let starts = self.times.starts(most_ns);
+        // From the end, so that the time of each part is worked out from that of the whole.
+        let mut parts: Vec<Self> = starts.into_iter().rev().map(|at| self.split_off(at)).collect();
+        parts.push(self);
+        parts.reverse();
+        parts
+    }
+
+    /// Takes off all samples from number `at` on.
+    fn split_off(&mut self, at: usize) -> Self {
+        let of_columns = |columns: &mut Vec<Vec<f32>>| columns.iter_mut().map(|column| column.split_off(at)).collect();
+        Self {
+            times: self.times.split_off(at),
+            sequence: self.sequence,
+            channels: of_columns(&mut self.channels),
+            extra: of_columns(&mut self.extra),
+        }
+    }
+}
+
+impl Times {
+    /// The numbers of the samples at which parts of less than `most_ns` begin, but for the first.
+    fn starts(&self, most_ns: u64) -> Vec<usize> {
+        if self.last().0.abs_diff(self.first().0) < most_ns {
+            return Vec::new();
+        }
+        let (mut starts, mut begin) = (Vec::new(), self.first());
+        for (number, time) in self.each().enumerate() {
+            if time.0.abs_diff(begin.0) >= most_ns {
+                starts.push(number);
+                begin = time;
+            }
+        }
+        starts
+    }
+
+    fn split_off(&mut self, at: usize) -> Self {
+        match self {
+            Self::Even { first, step_ns, samples } => {
+                let rest = Self::Even {
+                    first: after(*first, *step_ns, at),
+                    step_ns: *step_ns,
+                    samples: samples.saturating_sub(at),
+                };
+                *samples = at.min(*samples);
+                rest
+            }
+            Self::Each(times) => Self::Each(times.split_off(at)),
+        }
+    }
+}
+
 /// `i` steps after a time, to the nearest ns.
 #[expect(clippy::cast_possible_truncation, reason = "a block is far shorter than 292 years")]
 #[expect(clippy::cast_precision_loss, reason = "a block has far fewer than 2^53 samples")]
 pub(crate) fn after(first: UtcNs, step_ns: f64, i: usize) -> UtcNs {
     UtcNs(first.0.saturating_add((i as f64 * step_ns).round() as i64))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const SECOND_NS: u64 = 1_000_000_000;
+
+    /// A block whose values are the numbers of its samples.
+    fn block(times: Times) -> Block {
+        let numbers: Vec<f32> = (0_u16..).take(times.len()).map(f32::from).collect();
+        Block { times, sequence: Some(7), channels: vec![numbers.clone(); 3], extra: vec![numbers] }
+    }
+
+    fn times() -> impl Strategy<Value = Times> {
+        let even = (0..i64::MAX / 4, 1e5..3e9_f64, 1..2000_usize).prop_map(|(first, step_ns, samples)| Times::Even {
+            first: UtcNs(first),
+            step_ns,
+            samples,
+        });
+        let each = prop::collection::vec(0..4_000_000_000_i64, 1..500).prop_map(|steps| {
+            let add = |time: &mut i64, step: i64| {
+                *time += step;
+                Some(UtcNs(*time))
+            };
+            Times::Each(steps.into_iter().scan(0, add).collect())
+        });
+        prop_oneof![even, each]
+    }
+
+    proptest! {
+        #[test]
+        fn parts_hold_the_samples_of_the_whole(times in times()) {
+            let whole = block(times);
+            let parts = whole.clone().parts(SECOND_NS);
+            let joined = |column: fn(&Block) -> &Vec<f32>| parts.iter().flat_map(column).copied().collect::<Vec<_>>();
+            prop_assert_eq!(joined(|part| &part.channels[2]), whole.channels[2].clone());
+            prop_assert_eq!(joined(|part| &part.extra[0]), whole.extra[0].clone());
+            let of_parts: Vec<UtcNs> = parts.iter().flat_map(|part| part.times.each()).collect();
+            prop_assert_eq!(of_parts.len(), whole.times.len());
+            for (part, whole) in of_parts.iter().zip(whole.times.each()) {
+                prop_assert!(part.0.abs_diff(whole.0) <= 1, "{part:?} {whole:?}");
+            }
+            for (part, next) in parts.iter().zip(parts.iter().skip(1)) {
+                prop_assert!(next.times.first().0.abs_diff(part.times.first().0) >= SECOND_NS, "no shorter than it may be");
+            }
+            for part in &parts {
+                prop_assert!(part.times.last().0.abs_diff(part.times.first().0) < SECOND_NS);
+                prop_assert!(!part.times.is_empty() && part.channels.iter().all(|column| column.len() == part.times.len()));
+            }
+        }
+    }
 }

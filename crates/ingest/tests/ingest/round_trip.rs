@@ -51,6 +51,30 @@ fn packets_come_back_exactly_and_in_order_of_time() {
     assert_eq!(count, 4 * 1022, "a second pass gives the same");
 }
 
+/// Readers look messages up by the times of their first samples: a window of a second must not seem to be empty while the sensor was on.
+#[test]
+fn a_window_of_one_second_within_a_packet_has_messages() {
+    let study = packet_study();
+    study.ingest();
+    let bytes = std::fs::read(study.out()).unwrap();
+    let times_of = |topic: &str| -> Vec<i64> {
+        let messages = mcap::MessageStream::new(&bytes).unwrap().map(Result::unwrap);
+        messages.filter(|message| message.channel.topic == topic).map(|message| message.log_time as i64).collect()
+    };
+    let begins = (NOON_S + 8) * SECOND;
+    for (topic, begins) in [("/imu/acceleration", begins), ("/range", NOON_S * SECOND + 1_000_000)] {
+        let times = times_of(topic);
+        for begin in (0..7).map(|second| begins + second * SECOND) {
+            let within = times.iter().filter(|time| (begin - 500..begin + SECOND).contains(time)).count();
+            assert!(within >= 1, "{topic}: nothing at {begin}");
+        }
+    }
+    let mut sorted = times_of("/imu/acceleration");
+    sorted.sort_unstable();
+    assert_eq!(sorted.len(), 3 * 8, "7.984 s are 8 messages");
+    assert!(sorted.windows(2).all(|pair| pair[1] - pair[0] <= SECOND + 16_000_000), "packets have holes of 16 ms");
+}
+
 #[test]
 fn images_are_listed_in_order_of_time_and_come_back_unchanged() {
     let (_, mut reader) = packet_study().ingest();
