@@ -97,17 +97,17 @@ impl Block {
 impl Times {
     /// The numbers of the samples at which parts of less than `most_ns` begin, but for the first.
     fn starts(&self, most_ns: u64) -> Vec<usize> {
-        if self.last().0.abs_diff(self.first().0) < most_ns {
-            return Vec::new();
-        }
-        let (mut starts, mut begin) = (Vec::new(), self.first());
-        for (number, time) in self.each().enumerate() {
-            if time.0.abs_diff(begin.0) >= most_ns {
-                starts.push(number);
-                begin = time;
+        let next = |begin: usize| {
+            let first = self.time_at(begin)?;
+            let is_within = |number: usize| self.time_at(number).is_some_and(|time| time.0.abs_diff(first.0) < most_ns);
+            let (mut within, mut beyond) = (begin, self.len()); // times are in order, so the border is found by halves
+            while beyond - within > 1 {
+                let middle = within.midpoint(beyond);
+                *(if is_within(middle) { &mut within } else { &mut beyond }) = middle;
             }
-        }
-        starts
+            (beyond < self.len()).then_some(beyond)
+        };
+        std::iter::successors(next(0), |begin| next(*begin)).collect()
     }
 
     fn split_off(&mut self, at: usize) -> Self {
