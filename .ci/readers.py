@@ -87,6 +87,8 @@ def check_samples(place, found, times_ns, values, fields):
     check(bool(found), place, "no messages")
     if not found:
         return 0
+    longest_ns = max(samples_of([one], fields)[0][-1] - one[1] for one in found)
+    check(longest_ns < 1_000_000_000, place, f"a message spans {longest_ns} ns, so that a window of time within it seems empty")
     found_ns, decoded = samples_of(found, fields)
     check(len(found_ns) == len(times_ns), place, f"{len(found_ns)} samples, the card has {len(times_ns)}")
     if len(found_ns) != len(times_ns):
