@@ -16,7 +16,7 @@ coded_enum! {
         CardDoesNotFitProfile = "card_does_not_fit_profile": "no file of the card fits a pattern of the device profile",
         ObjectNeverMeasured = "object_never_measured": "`check`: no mark in the study gives a size of an object of objects.csv",
         TableStaysEmpty = "table_stays_empty": "`check`: no size that the study gives fits a table of study.toml",
-        SameCard = "same_card": "the card of a session holds the same files as that of another session, byte for byte",
+        SameCard = "same_card": "the card of a session holds files of that of another session, byte for byte",
         FoldersAlike = "folders_alike": "two folders of sessions or marks have one name in two Unicode forms",
         NoFiles = "no_files": "a stream that the profile declares has no file on the card",
         NotDeclared = "not_declared": "the profile declares no images, accelerometer or range sensor; sizes need all three",
@@ -230,7 +230,7 @@ impl ProblemCode {
             Self::OutlineNotRound => {
                 "correct the points; outline one edge only, and name objects that are not round so in objects.csv"
             }
-            Self::SameCard => "keep the card in one session, and move the other folder out of cards/",
+            Self::SameCard => "keep each file in one session, and move the other copy of the card out of cards/",
             Self::SizesDisagree => {
                 "look at the marks that `flags` names as outliers; without one, at all of them, or at [uncertainty]"
             }

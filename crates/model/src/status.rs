@@ -64,9 +64,10 @@ pub struct SessionStatus {
     pub sizes: usize,
     /// The problems of the session, losses and notes; empty when all is well.
     pub problems: Vec<Problem>,
-    /// SHA-256 over the contents of the files of its card, by which the same card in two sessions is seen; `None` without files.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub card_sha256: Option<String>,
+    /// A sample of the files of its card, by which the same files in two sessions are seen: the least 16 of the SHA-256 of their
+    /// contents, 12 hexadecimal digits of each, in order; empty without files.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub card_sketch: Vec<String>,
 }
 
 impl SessionStatus {

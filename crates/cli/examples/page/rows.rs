@@ -107,7 +107,7 @@ fn status(name: &str, place: usize, results: &[ResultRow], frames: &[FrameRow]) 
         selected: frames.iter().filter(|frame| frame.reason == FrameReason::Selected).count(),
         sizes: results.iter().filter(|row| row.predicted_mm.is_some()).count(),
         problems,
-        card_sha256: None,
+        card_sketch: Vec::new(),
     }
 }
 

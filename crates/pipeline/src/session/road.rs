@@ -20,7 +20,7 @@ use super::problems::without_host;
 use super::recording::{Recording, read as read_recording};
 use super::session_marks::{Reading, SessionMarks};
 use super::shown::Shown;
-use crate::inputs::sha256_of_bytes;
+use crate::inputs::card_sketch;
 use crate::reporter::Reporter;
 use crate::stop::Stop;
 use crate::study::{SessionDir, Study};
@@ -135,7 +135,7 @@ impl Measuring<'_> {
         output.status.problems.append(&mut recording.problems);
         output.inputs_sha256.extend(prepared.session_toml_sha256.clone());
         let inputs = std::mem::take(&mut recording.inputs_sha256);
-        output.status.card_sha256 = card_sha256(inputs.values());
+        output.status.card_sketch = card_sketch(inputs.values().map(String::as_str));
         output.inputs_sha256.extend(inputs.into_iter().map(|(file, sha)| (format!("cards/{}/{file}", dir.name), sha)));
         let mount_pitch_deg = study.spec.mount.pitch_offset_deg.unwrap_or(recording.mount_pitch_deg);
         let session = Session::new(study, dir, prepared, recording);
@@ -172,13 +172,6 @@ impl Measuring<'_> {
         output.auto = auto.by_image;
         marks
     }
-}
-
-/// SHA-256 over the hashes of a card's files, whatever their names and order; `None` without files.
-fn card_sha256<'a>(files: impl Iterator<Item = &'a String>) -> Option<String> {
-    let mut files: Vec<&str> = files.map(String::as_str).collect();
-    files.sort_unstable();
-    (!files.is_empty()).then(|| sha256_of_bytes(files.join("\n").as_bytes()))
 }
 
 /// Sets the counts of the status, and adds the problem of a session without any pose.
