@@ -32,6 +32,12 @@ pub enum CircleError {
     /// The points lie on a line or on one spot.
     #[error("the points lie on a line or on one spot; spread them around the rim")]
     Degenerate,
+    /// The points are the corners of a box whose sides are level and plumb in the picture, as tools draw one around a thing.
+    #[error(
+        "its 4 points are the corners of an upright box, which is drawn around a round edge and does not follow it; mark at least 6 \
+         points along the edge"
+    )]
+    UprightBox,
     /// The points do not follow a circle.
     #[error(
         "the {points} points lie {misfit_px:.1} px (RMS) off the best circle, where marks and pose explain {expected_px:.1} px; if the \

@@ -75,7 +75,7 @@ pub use gallery::{GalleryMark, GalleryPicture, GallerySink, PictureView};
 pub use joint::{JointError, JointHeight, Sight, Sights, joint_height, sights};
 pub use lens::{LensError, LensModel};
 pub use marks::{Feature, Mark, ObjectMarks};
-pub use measure::{LeftOut, MeasureError, Measured, height_by_paper_mm, height_by_ray_mm, measure};
+pub use measure::{LeftOut, MarkPlace, MeasureError, Measured, height_by_paper_mm, height_by_ray_mm, measure};
 pub use orientation::Orientation;
 pub use pose::{Pose, PoseError};
 pub use problem_code::{ProblemCode, problems_markdown};

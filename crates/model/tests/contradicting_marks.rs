@@ -63,9 +63,12 @@ fn across(length_mm: f64) -> Mark {
 #[test]
 fn two_lines_that_contradict_each_other_give_no_size() {
     let error = diameter(vec![across(170.0), across(0.5)]).unwrap_err();
-    let MeasureError::MarksDisagree { marks: 2, smallest_mm, largest_mm } = error else { panic!("{error:?}") };
+    let MeasureError::MarksDisagree { marks: 2, smallest_mm, largest_mm, .. } = error else { panic!("{error:?}") };
     assert!((smallest_mm - 0.5).abs() < 1e-6 && (largest_mm - 170.0).abs() < 1e-6);
     assert_eq!(error.problem_code().code(), "marks_disagree");
+    let middle = seen(20.0, 330.0, 0.0);
+    let place = format!("170.0 mm (line about pixel ({:.0}, {:.0}))", middle.x, middle.y);
+    assert!(error.to_string().contains(&place), "{error}");
 }
 
 #[test]
@@ -74,6 +77,7 @@ fn one_of_three_is_left_out_and_named() {
     let left = measured.left_out.unwrap();
     assert!((measured.predicted_mm - 170.5).abs() < 1e-6 && measured.marks == 2, "{measured:?}");
     assert!(left.marks == 1 && (left.furthest_mm - 0.5).abs() < 1e-6);
+    assert!(!left.furthest.is_outline && (left.furthest.middle_px - seen(20.0, 330.0, 0.0)).norm() < 0.1);
 }
 
 #[test]
@@ -101,6 +105,23 @@ fn height_lines_are_judged_as_well() {
         &InputSigma::default(),
     );
     assert!((sizes[0].1.as_ref().unwrap().measured.predicted_mm - 60.5).abs() < 1e-6, "{sizes:?}");
+}
+
+/// A wall that leans looks higher on one side than on the other, but has one height at one place.
+#[test]
+fn lines_on_one_side_of_a_wall_give_one_height() {
+    let at = |x_mm: f64, y_mm: f64, height_mm: f64| line(Quantity::Height, [x_mm, y_mm, 0.0], [x_mm, y_mm, height_mm]);
+    let container = Container { kind: Kind::Bowl, shape: Shape::Circle, rim_height_mm: None, wall: None };
+    let height = |marks: Vec<Mark>| {
+        let marks = ObjectMarks { object: "bowl".to_owned(), marks };
+        estimate(&view(55.0), Method::Ray, &container, &marks, &InputSigma::default()).remove(0).1
+    };
+    let one_side = height(vec![at(0.0, 330.0, 60.0), at(6.0, 330.0, 35.0)]);
+    assert!(matches!(one_side, Err(MeasureError::MarksDisagree { .. })), "{one_side:?}");
+    let close = height(vec![at(0.0, 330.0, 60.0), at(6.0, 330.0, 57.0)]).unwrap();
+    assert_eq!(close.measured.marks, 2);
+    let opposite = height(vec![at(-50.0, 330.0, 60.0), at(50.0, 330.0, 35.0)]).unwrap();
+    assert_eq!(opposite.measured.marks, 2, "which may be the two sides of a wall that leans");
 }
 
 #[test]
@@ -141,6 +162,23 @@ fn four_points_are_doubtful() {
     let closed = [circle(4), circle(4)[..1].to_vec()].concat();
     assert_eq!(diameter(vec![rim(closed)]).unwrap().doubts, [Doubt::FewOutlinePoints]);
     assert_eq!(diameter(vec![rim(circle(8))]).unwrap().doubts, []);
+}
+
+/// A box around a round rim, as tools draw it, has its corners on a circle of its own: 238 for 169.3 mm.
+#[test]
+fn an_upright_box_is_no_outline_of_a_circle() {
+    let points = circle(64);
+    let bound = |axis: usize, pick: fn(f64, f64) -> f64| points.iter().map(|point| point[axis]).reduce(pick).unwrap();
+    let [left, right] = [bound(0, f64::min), bound(0, f64::max)];
+    let [top, bottom] = [bound(1, f64::min), bound(1, f64::max)];
+    let corners = [[left, top], [right, top], [right, bottom], [left, bottom]].map(Point2::from).to_vec();
+    for corners in [corners.clone(), [&corners[2..], &corners[..2], &corners[2..3]].concat()] {
+        let error = diameter(vec![rim(corners)]).unwrap_err();
+        assert!(matches!(error, MeasureError::Circle { source: CircleError::UprightBox, .. }), "{error}");
+        assert_eq!(error.problem_code().code(), "no_circle");
+    }
+    let leaning = [[left, top], [right, top + 5.0], [right, bottom], [left, bottom - 5.0]].map(Point2::from).to_vec();
+    assert!(diameter(vec![rim(leaning)]).is_ok_and(|size| size.doubts == [Doubt::FewOutlinePoints]));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The reasons why marks do not give a size.
 
 use super::judge::APART;
+use super::place::MarkPlace;
 use crate::circle::CircleError;
 use crate::container::Shape;
 use crate::marks::Feature;
@@ -53,8 +54,8 @@ pub enum MeasureError {
     NoLength,
     /// Several marks of one size contradict each other, and none is in the majority.
     #[error(
-        "{marks} marks of one size give {smallest_mm:.1} to {largest_mm:.1} mm, which differ by more than {APART} of their \
-         uncertainties: correct the one that slipped"
+        "{marks} marks of one size give {smallest_mm:.1} mm ({smallest}) to {largest_mm:.1} mm ({largest}), which differ by more \
+         than {APART} of their uncertainties: correct the one that slipped"
     )]
     MarksDisagree {
         /// The number of marks.
@@ -63,6 +64,10 @@ pub enum MeasureError {
         smallest_mm: f64,
         /// The largest size that they give.
         largest_mm: f64,
+        /// The mark of the smallest.
+        smallest: MarkPlace,
+        /// The mark of the largest.
+        largest: MarkPlace,
     },
     /// The rim of a square or rectangle is not outlined by its four corners.
     #[error("rim outline of a {shape}: expected its 4 corners, got {points} points")]

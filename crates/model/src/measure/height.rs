@@ -81,6 +81,17 @@ impl HeightLine {
     }
 }
 
+/// Height lines on opposite sides of a wall that leans differ by up to this share of the larger height.
+const LEANING: f64 = 0.5;
+
+/// By how much, in mm, two heights of one wall may differ for how the wall leans. Lines at one place see the same side of it, and must
+/// give the same height; those whose feet are as far apart as the wall is high may see opposite sides.
+pub(super) fn leaning_mm(view: &View, lines: &[HeightLine], heights: &[Sensed], [a, b]: [usize; 2]) -> f64 {
+    let foot = |i: usize| view.on_plane(lines[i].foot.1, 0.0);
+    let (Ok(foot_a), Ok(foot_b)) = (foot(a), foot(b)) else { return 0.0 };
+    LEANING * (foot_a - foot_b).norm().min(heights[a].value.max(heights[b].value))
+}
+
 /// The height H = c (1 - foot / rim) with its derivatives, from distances on Z = 0 from the point under the camera. About that
 /// point the rim is seen on Z = 0 scaled by c / (c - H), where c is the height of the camera.
 pub(super) fn height_from_distances(view: &View, foot: &Sensed, rim: &Sensed) -> Result<Sensed, MeasureError> {

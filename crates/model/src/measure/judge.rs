@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Point2, RowVector3, Vector2, Vector3};
 
 use super::MeasureError;
+use super::place::MarkPlace;
 use crate::circle::{Circle, algebraic_fit};
 use crate::container::Method;
 use crate::located::Located;
@@ -13,8 +14,6 @@ use crate::view::View;
 
 /// Marks of one size that differ by more than this many standard uncertainties of their difference contradict each other.
 pub(super) const APART: f64 = 6.0;
-/// Height lines on different sides of a wall that leans differ by up to this share of the larger height.
-pub(super) const LEANING: f64 = 0.5;
 /// An uncertainty of marks that no picture contradicts.
 const ANYWHERE_PX: f64 = 1e6;
 /// Nobody sets points more exactly than this, whatever `mark_px` says.
@@ -46,6 +45,29 @@ pub struct LeftOut {
     pub marks: usize,
     /// The size by the one that is furthest off, in mm.
     pub furthest_mm: f64,
+    /// That mark.
+    pub furthest: MarkPlace,
+}
+
+/// The numbers of the sizes at both ends, where sizes contradict each other and none is in the majority.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Contradiction {
+    pub smallest: usize,
+    pub largest: usize,
+}
+
+impl Contradiction {
+    /// The error of these sizes.
+    pub(super) fn error(self, sizes: &[Sensed], place: impl Fn(usize) -> MarkPlace) -> MeasureError {
+        let Self { smallest, largest } = self;
+        MeasureError::MarksDisagree {
+            marks: sizes.len(),
+            smallest_mm: sizes[smallest].value,
+            largest_mm: sizes[largest].value,
+            smallest: place(smallest),
+            largest: place(largest),
+        }
+    }
 }
 
 /// Points about a circle.
@@ -106,28 +128,27 @@ impl Judge {
         sensitivity.sigma(&self.inputs).total_mm
     }
 
-    /// The numbers of the sizes that agree with the middle one, which are all of them as a rule. `leeway` is the share of the larger
-    /// size by which two may differ for other reasons than their marks.
+    /// The numbers of the sizes that agree with the middle one, which are all of them as a rule. `leeway_mm` gives, for two numbers of
+    /// sizes, by how much these may differ for other reasons than their marks.
     ///
     /// # Errors
-    /// [`MeasureError::MarksDisagree`] where they are not the majority.
-    pub(super) fn agreeing(&self, sizes: &[Sensed], leeway: f64) -> Result<Vec<usize>, MeasureError> {
+    /// [`Contradiction`] where they are not the majority.
+    pub(super) fn agreeing(
+        &self,
+        sizes: &[Sensed],
+        leeway_mm: impl Fn(usize, usize) -> f64,
+    ) -> Result<Vec<usize>, Contradiction> {
         let mut order: Vec<usize> = (0..sizes.len()).collect();
         order.sort_by(|a, b| sizes[*a].value.total_cmp(&sizes[*b].value));
-        let Some(middle) = order.get(order.len().saturating_sub(1) / 2).map(|i| &sizes[*i]) else {
-            return Ok(Vec::new());
+        let (&[smallest, ..], &[.., largest]) = (order.as_slice(), order.as_slice()) else { return Ok(Vec::new()) };
+        let middle = order[(order.len() - 1) / 2];
+        let agrees = |i: usize| {
+            let terms = [(1.0, &sizes[i]), (-1.0, &sizes[middle])];
+            let apart = Sensed::of_numbers(sizes[i].value - sizes[middle].value, terms, sizes[i].points());
+            i == middle || apart.value.abs() <= APART * self.sigma(&apart) + leeway_mm(i, middle)
         };
-        let agrees = |size: &Sensed| {
-            let apart = Sensed::of_numbers(size.value - middle.value, [(1.0, size), (-1.0, middle)], size.points());
-            let allowed_mm = leeway * size.value.abs().max(middle.value.abs());
-            apart.value == 0.0 || apart.value.abs() <= APART * self.sigma(&apart) + allowed_mm
-        };
-        let kept: Vec<usize> = (0..sizes.len()).filter(|i| agrees(&sizes[*i])).collect();
-        if 2 * kept.len() > sizes.len() {
-            return Ok(kept);
-        }
-        let (smallest_mm, largest_mm) = (sizes[order[0]].value, sizes[order[order.len() - 1]].value);
-        Err(MeasureError::MarksDisagree { marks: sizes.len(), smallest_mm, largest_mm })
+        let kept: Vec<usize> = (0..sizes.len()).filter(|i| agrees(*i)).collect();
+        if 2 * kept.len() > sizes.len() { Ok(kept) } else { Err(Contradiction { smallest, largest }) }
     }
 
     /// The misfit of points from a circle that was fitted to them. A wrong pose makes an ellipse of a circle: the part of such

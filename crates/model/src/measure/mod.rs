@@ -4,6 +4,7 @@ mod error;
 mod height;
 mod judge;
 mod numbered;
+mod place;
 mod round;
 mod span;
 
@@ -15,12 +16,13 @@ use crate::sigma::InputSigma;
 use crate::view::View;
 
 pub use error::MeasureError;
+use height::leaning_mm;
 pub(crate) use height::{HeightLine, camera_height, possible_height};
 pub use height::{height_by_paper_mm, height_by_ray_mm};
 pub(crate) use judge::Judge;
-use judge::LEANING;
 pub use judge::LeftOut;
 pub(crate) use numbered::Numbered;
+pub use place::MarkPlace;
 use round::coaxial;
 use span::{Extent, Span};
 
@@ -96,9 +98,9 @@ pub(crate) fn view_of_method(view: &View, method: Method) -> View {
 /// The sizes of [`measure`] with their derivatives, by the view as it is, roll included.
 pub(crate) fn sizes(view: &View, method: Method, container: &Container, marks: &ObjectMarks, judge: &Judge) -> Sizes {
     let numbered = Numbered::from_marks(marks);
-    let leeway = if container.known_wall() == Some(Wall::Vertical) { 0.0 } else { LEANING };
+    let may_lean = container.known_wall() != Some(Wall::Vertical);
     let height = match method {
-        Method::Paper | Method::Ray => height_of_lines(view, method, &numbered, judge, leeway),
+        Method::Paper | Method::Ray => height_of_lines(view, method, &numbered, judge, may_lean),
         Method::Coaxial => match coaxial_height(view, container, &numbered, judge) {
             Some(height) => Some(height),
             None => return Vec::new(),
@@ -132,7 +134,8 @@ fn sizes_on_plane(
             let plane_z = plane_z.as_ref().map_err(|error| *error)?;
             let extents =
                 spans.iter().map(|span| span.size(view, quantity, plane_z, judge)).collect::<Result<Vec<_>, _>>()?;
-            mean_size(quantity, extents, plane_z.value, judge, 0.0)
+            let place = |i: usize| marks.place(spans[i].first());
+            mean_size(quantity, extents, plane_z.value, judge, |_, _| 0.0, place)
         };
         (!spans.is_empty()).then(|| (quantity, size()))
     })
@@ -144,21 +147,24 @@ fn height_of_lines(
     method: Method,
     marks: &Numbered<'_>,
     judge: &Judge,
-    leeway: f64,
+    may_lean: bool,
 ) -> Option<Result<Sized, MeasureError>> {
-    let heights: Vec<_> = marks
-        .height_lines()
+    let lines: Vec<HeightLine> = marks.height_lines().collect();
+    let heights: Result<Vec<_>, _> = lines
+        .iter()
         .map(|line| match method {
             Method::Paper => line.by_paper(view, marks.points),
             Method::Ray | Method::Coaxial | Method::Joint | Method::Best => line.by_ray(view, marks.points),
         })
         .collect();
-    if heights.is_empty() {
+    if lines.is_empty() {
         return None;
     }
-    let extent = |number: Sensed| Extent { number, strays: 0, doubt: None };
-    let all: Result<Vec<_>, _> = heights.into_iter().map(|height| height.map(extent)).collect();
-    Some(all.and_then(|all| mean_size(Quantity::Height, all, 0.0, judge, leeway)))
+    Some(heights.and_then(|heights| {
+        let leeway_mm = |a, b| if may_lean { leaning_mm(view, &lines, &heights, [a, b]) } else { 0.0 };
+        let extents = heights.iter().map(|number| Extent { number: number.clone(), strays: 0, doubt: None });
+        mean_size(Quantity::Height, extents.collect(), 0.0, judge, leeway_mm, |i| marks.place(lines[i].foot.0))
+    }))
 }
 
 /// The height by the circles of rim and base; `None` unless the object is a round bowl with both outlined.
@@ -189,10 +195,11 @@ fn mean_size(
     extents: Vec<Extent>,
     plane_z_mm: f64,
     judge: &Judge,
-    leeway: f64,
+    leeway_mm: impl Fn(usize, usize) -> f64,
+    place: impl Fn(usize) -> MarkPlace,
 ) -> Result<Sized, MeasureError> {
     let numbers: Vec<Sensed> = extents.iter().map(|extent| extent.number.clone()).collect();
-    let kept = judge.agreeing(&numbers, leeway)?;
+    let kept = judge.agreeing(&numbers, leeway_mm).map_err(|apart| apart.error(&numbers, &place))?;
     let number = Sensed::mean(&kept.iter().map(|i| numbers[*i].clone()).collect::<Vec<_>>());
     let number = number.ok_or(MeasureError::NoLength)?;
     let off = |i: &usize| (numbers[*i].value - number.value).abs();
@@ -200,7 +207,11 @@ fn mean_size(
     let furthest = others.max_by(|a, b| off(a).total_cmp(&off(b)));
     let measured = Measured {
         marks: kept.len(),
-        left_out: furthest.map(|i| LeftOut { marks: numbers.len() - kept.len(), furthest_mm: numbers[i].value }),
+        left_out: furthest.map(|i| LeftOut {
+            marks: numbers.len() - kept.len(),
+            furthest_mm: numbers[i].value,
+            furthest: place(i),
+        }),
         stray_points: kept.iter().map(|i| extents[*i].strays).sum(),
         ..Measured::by_one_mark(quantity, number.value, plane_z_mm)
     };

@@ -3,8 +3,9 @@
 use nalgebra::Point2;
 
 use super::MeasureError;
-use super::height::HeightLine;
-use super::judge::{Judge, LEANING};
+use super::height::{HeightLine, leaning_mm};
+use super::judge::Judge;
+use super::place::MarkPlace;
 use crate::container::Quantity;
 use crate::marks::{Feature, Mark, ObjectMarks};
 use crate::view::View;
@@ -44,10 +45,19 @@ impl<'a> Numbered<'a> {
     /// The height lines without those that contradict the majority. Lines that give no height by their rays, as those of a wall that
     /// leans over its foot, are not judged.
     pub(crate) fn agreeing_height_lines(&self, view: &View, judge: &Judge) -> Result<Vec<HeightLine>, MeasureError> {
-        let heights: Result<Vec<_>, _> = self.height_lines().map(|line| line.by_ray(view, self.points)).collect();
-        let kept = heights.ok().map(|heights| judge.agreeing(&heights, LEANING)).transpose()?;
-        let is_kept = |i: usize| kept.as_ref().is_none_or(|kept| kept.contains(&i));
-        Ok(self.height_lines().enumerate().filter(|(i, _)| is_kept(*i)).map(|(_, line)| line).collect())
+        let lines: Vec<HeightLine> = self.height_lines().collect();
+        let heights: Result<Vec<_>, _> = lines.iter().map(|line| line.by_ray(view, self.points)).collect();
+        let Ok(heights) = heights else { return Ok(lines) };
+        let kept = judge
+            .agreeing(&heights, |a, b| leaning_mm(view, &lines, &heights, [a, b]))
+            .map_err(|apart| apart.error(&heights, |i| self.place(lines[i].foot.0)))?;
+        Ok(lines.into_iter().enumerate().filter(|(i, _)| kept.contains(i)).map(|(_, line)| line).collect())
+    }
+
+    /// The place of the mark that has this point.
+    pub(super) fn place(&self, point: usize) -> MarkPlace {
+        let of_point = self.marks.iter().rev().find(|(first, _)| *first <= point);
+        of_point.map_or(MarkPlace { is_outline: false, middle_px: Point2::origin() }, |(_, mark)| MarkPlace::of(mark))
     }
 
     /// The outlines of a feature, each with the number of its first point.

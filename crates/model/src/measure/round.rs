@@ -25,6 +25,20 @@ pub(super) struct Round {
     pub doubt: Option<Doubt>,
 }
 
+/// The sides of a box that a tool drew are level and plumb to this, coordinates being rounded. Nobody clicks as exactly.
+const UPRIGHT_PX: f64 = 1.0;
+
+/// Whether points are the four corners of an upright box, in order; the first may stand again at the end.
+fn is_upright_box(points_px: &[(usize, Point2<f64>)]) -> bool {
+    let corners: Vec<Point2<f64>> = match points_px {
+        [first, .., last] if points_px.len() == 5 && first.1 == last.1 => points_px[..4].iter().map(|p| p.1).collect(),
+        [_, _, _, _] => points_px.iter().map(|p| p.1).collect(),
+        _ => return false,
+    };
+    let is_side = |i: usize, axis: usize| (corners[i] - corners[(i + 1) % 4])[axis].abs() <= UPRIGHT_PX;
+    [0, 1].into_iter().any(|axis| (0..4).all(|i| is_side(i, if i % 2 == 0 { axis } else { 1 - axis })))
+}
+
 impl Round {
     /// The circle through points that were marked along a level edge. Each is weighted by the length that one pixel covers at
     /// its place. A few points that lie far off the circle of the others are left out.
@@ -44,6 +58,9 @@ impl Round {
             .collect::<Result<_, _>>()?;
         let marks: Vec<usize> = points_px.iter().map(|(mark, _)| *mark).collect();
         let no_circle = |source| MeasureError::Circle { feature, source };
+        if is_upright_box(points_px) {
+            return Err(no_circle(CircleError::UprightBox));
+        }
         let fit = fit_located(&located).map_err(no_circle)?;
         let misfit = judge.misfit(&Ring { located: &located, circle: fit.circle });
         let few = (distinct(points_px.iter().map(|(_, pixel)| *pixel)) < FEWEST).then_some(Doubt::FewOutlinePoints);

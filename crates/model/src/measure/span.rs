@@ -57,6 +57,13 @@ impl<'a> Span<'a> {
         marks.lines(quantity).map(|(first, ends)| Span::Line(first, ends)).chain(outlines).collect()
     }
 
+    /// The number of its first point.
+    pub(super) fn first(&self) -> usize {
+        match self {
+            Span::Line(first, _) | Span::Circle(first, _) | Span::Corners(first, ..) => *first,
+        }
+    }
+
     /// The extent on the plane at the height `plane_z`, with its derivatives.
     pub(super) fn size(
         &self,

@@ -164,8 +164,9 @@ fn left_out(marked: &Marked<'_>, sizes: &[(Method, Quantity, Result<Estimate, Me
         let lines = measured.left_out.map(|left| {
             let (marks, used) = (left.marks, measured.marks);
             format!(
-                "{marks} of {} marks ({:.1} mm) left out, which contradict the other {used}",
+                "{marks} of {} marks ({}, {:.1} mm) left out, which contradict the other {used}",
                 marks + used,
+                left.furthest,
                 left.furthest_mm
             )
         });
