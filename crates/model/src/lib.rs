@@ -29,6 +29,7 @@
 //! ```
 #![warn(missing_docs)]
 
+pub mod bundle;
 pub mod calibrate;
 mod camera;
 mod camera_spec;
