@@ -43,6 +43,6 @@ pub use find::{LEAST_DIAMETER_MM, LEAST_POINTS, RimError, VERSION, find_rims, fi
 pub use found::Found;
 pub use outline::RingPair;
 pub use rim::Rim;
-pub use rim_height::{HeightSource, RimHeight, as_judged};
+pub use rim_height::{HeightSource, RimHeight, as_judged, plate_log_odds};
 pub use shape::{RimShape, UnknownRimShape};
 pub use weights::{FEATURES, FittedSet, RING_FEATURES, SQUARE_FEATURES, fitted_sets, weights_toml};

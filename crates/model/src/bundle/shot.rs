@@ -31,6 +31,17 @@ pub(super) fn solved(
     Ok(SolvedShot { pose, turn_rad, foot_mm: Point2::new(x, y) })
 }
 
+impl SolvedShot {
+    /// The point of the common frame at the height `z_mm` that an ideal ray of the picture meets; none where it does not descend to it.
+    #[must_use]
+    pub fn on_level(&self, ray: &Vector3<f64>, z_mm: f64) -> Option<Point2<f64>> {
+        let Self { pose, turn_rad, foot_mm } = self;
+        let height_mm = pose.camera_height_mm();
+        let stand = Stand::new(&[pose.pitch_rad(), pose.roll_rad(), *turn_rad, foot_mm.x, foot_mm.y, height_mm]);
+        Some(stand.on_level(ray, z_mm)?.0)
+    }
+}
+
 impl Stand {
     pub fn new([pitch_rad, roll_rad, turn_rad, x, y, height_mm]: &ShotParameters) -> Self {
         let (sin_pitch, cos_pitch) = pitch_rad.sin_cos();

@@ -29,7 +29,9 @@ pub(super) fn estimates(
     let source = found.height_as(container).source;
     // The height was measured together with the rim that was found, and not with one that a person has moved.
     let is_as_found = marked.author == MarksAuthor::Program;
-    let is_seen = is_as_found && matches!(source, HeightSource::Foot | HeightSource::Floor) && method == Method::Ray;
+    let is_seen = is_as_found
+        && matches!(source, HeightSource::Foot | HeightSource::Floor | HeightSource::Session)
+        && method == Method::Ray;
     let kept = sizes.into_iter().filter(|(quantity, _)| *quantity != Quantity::Height || is_seen);
     kept.map(|(quantity, size)| (quantity, size.map(|estimate| with_shared(estimate, &marked.inputs)))).collect()
 }

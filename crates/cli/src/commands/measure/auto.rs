@@ -67,6 +67,7 @@ fn describe_rim(rim: &Rim, container: &Container) -> Found {
             HeightSource::Given => "given",
             HeightSource::Foot => "foot",
             HeightSource::Floor => "floor",
+            HeightSource::Session => "session",
             HeightSource::Common => "common",
         },
     }

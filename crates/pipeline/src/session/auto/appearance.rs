@@ -90,7 +90,8 @@ struct Heights {
 }
 
 /// The sources of heights, the surest first.
-const SOURCES: [HeightSource; 4] = [HeightSource::Given, HeightSource::Foot, HeightSource::Floor, HeightSource::Common];
+const SOURCES: [HeightSource; 5] =
+    [HeightSource::Given, HeightSource::Session, HeightSource::Foot, HeightSource::Floor, HeightSource::Common];
 /// No height is known better than this.
 const LEAST_SIGMA_MM: f64 = 1e-3;
 

@@ -7,6 +7,7 @@
 
 use std::collections::BTreeSet;
 
+use super::table::OnTable;
 use super::track::{Sighting, Track};
 
 /// Diameters that differ by more than this many of their joint standard uncertainties belong to two containers.
@@ -27,8 +28,8 @@ const NO_PLACE: f64 = 9.0;
 const CLEAR: f64 = 4.0;
 
 /// The containers, in the order in which they are first seen. `seen` must be in the order of time; sightings in one image
-/// are of as many containers.
-pub(super) fn containers(seen: &[Sighting]) -> Vec<Track> {
+/// are of as many containers. Where places on one table are known, they decide before sizes do.
+pub(super) fn containers(seen: &[Sighting], on_table: &[OnTable]) -> Vec<Track> {
     let mut tracks: Vec<Track> = Vec::new();
     let mut first = 0;
     for image in seen.chunk_by(|a, b| a.image == b.image) {
@@ -40,7 +41,40 @@ pub(super) fn containers(seen: &[Sighting]) -> Vec<Track> {
         }
         first += image.len();
     }
-    joined(tracks, seen)
+    joined(placed(tracks, seen, on_table), seen)
+}
+
+/// The tracks after what lies at one place has been put together, and what lies at several has been taken apart.
+fn placed(tracks: Vec<Track>, seen: &[Sighting], on_table: &[OnTable]) -> Vec<Track> {
+    let place_of = |member: usize| on_table.iter().position(|one| one.members.contains(&member));
+    let mut at_places: Vec<Vec<usize>> = on_table.iter().map(|one| one.members.clone()).collect();
+    let mut elsewhere: Vec<Vec<usize>> = Vec::new();
+    for track in &tracks {
+        let image = |member: usize| seen[member].image;
+        let (known, unknown): (Vec<usize>, Vec<usize>) =
+            track.members.iter().partition(|member| place_of(**member).is_some());
+        // Images that are not tied say nothing of a place: they go with the place of most of their track, unless that is in one of
+        // these images as well.
+        let most =
+            (0..on_table.len()).max_by_key(|place| known.iter().filter(|m| place_of(**m) == Some(*place)).count());
+        let joins = most.filter(|place| {
+            !known.is_empty() && unknown.iter().all(|u| at_places[*place].iter().all(|m| image(*m) != image(*u)))
+        });
+        match joins {
+            Some(place) => at_places[place].extend(unknown),
+            None => elsewhere.push(unknown),
+        }
+    }
+    let of_members = |mut members: Vec<usize>| {
+        members.sort_unstable();
+        let (first, others) = members.split_first()?;
+        let mut track = Track::from_sighting(*first, &seen[*first]);
+        others.iter().for_each(|member| track.add(*member, &seen[*member]));
+        Some(track)
+    };
+    let mut tracks: Vec<Track> = at_places.into_iter().chain(elsewhere).filter_map(of_members).collect();
+    tracks.sort_by_key(|track| track.members.first().copied());
+    tracks
 }
 
 /// The number of the track that each sighting of one image belongs to, where that is clear. The cheapest link is made first.

@@ -3,6 +3,7 @@
 mod appearance;
 mod link;
 mod named;
+mod table;
 mod track;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,6 +26,7 @@ use crate::study::{AUTO, SessionDir, Study, marks_in, number_of_found, stem_of};
 use appearance::Appearance;
 use named::{Seen, name_containers};
 use rims::{self, Found, Rim, find_rims_of};
+use table::{Looked, on_one_table, pictures_of_table, rays_of};
 use track::Sighting;
 
 /// The result of a search.
@@ -70,9 +72,13 @@ impl Search<'_> {
         let (checked, taken) = if source.reads_all() { self.checked(recording) } else { Default::default() };
         let refuse = |error| SearchError::Recording(Box::new(bad_mcap(&self.dir.name, &error)));
         let mut reader = SessionReader::open(self.mcap).map_err(refuse)?;
-        let mut seen = Vec::new();
-        for (number, frame) in frames(self.study, self.prepared, recording).iter().enumerate() {
-            if frame.signals.reason != FrameReason::Selected || checked.contains(&stem_of(&frame.image.file)) {
+        let frames = frames(self.study, self.prepared, recording);
+        let is_free = |frame: &Frame| !checked.contains(&stem_of(&frame.image.file));
+        let for_table = pictures_of_table(&frames);
+        let (mut seen, mut helping, mut looked) = (Vec::new(), Vec::new(), Vec::new());
+        for (number, frame) in frames.iter().enumerate() {
+            let is_measured = frame.signals.reason == FrameReason::Selected && is_free(frame);
+            if !is_measured && !for_table.contains(&number) {
                 continue;
             }
             if self.stop.is_set() {
@@ -82,12 +88,18 @@ impl Search<'_> {
                 + BYTES_PER_PIXEL * u64::from(frame.image.width_px) * u64::from(frame.image.height_px);
             let _taken = self.budget.take(room);
             let bytes = reader.image_bytes(&frame.image.file).map_err(refuse)?;
-            match self.in_picture(number, frame, &bytes) {
-                Ok(found) => seen.extend(found),
-                Err(fact) => auto.problems.push(self.not_searched(frame, fact)),
+            match self.in_picture(number, frame, &bytes, for_table.contains(&number)) {
+                Ok((found, of_table)) => {
+                    (if is_measured { &mut seen } else { &mut helping }).extend(found);
+                    looked.extend(of_table);
+                }
+                Err(fact) if is_measured => auto.problems.push(self.not_searched(frame, fact)),
+                Err(_) => {} // nothing is measured in it
             }
         }
-        auto.by_image = name_containers(seen, &taken, self.study.spec.marks.min_diameter_mm);
+        let inputs = self.study.spec.uncertainty.inputs();
+        let on_table = on_one_table(&looked, &seen, &helping, &inputs);
+        auto.by_image = name_containers(seen, &on_table, &taken, self.study.spec.marks.min_diameter_mm);
         Ok(auto)
     }
 
@@ -108,16 +120,24 @@ impl Search<'_> {
         (files.iter().map(|file| stem_of(&file.to_string_lossy())).collect(), taken)
     }
 
-    fn in_picture(&self, number: usize, frame: &Frame, bytes: &[u8]) -> Result<Vec<Seen>, String> {
-        let Some(pose) = frame.signals.pose_for(Method::Ray) else { return Ok(Vec::new()) };
+    /// What a picture shows, with the features of the table where they are asked for.
+    fn in_picture(
+        &self,
+        number: usize,
+        frame: &Frame,
+        bytes: &[u8],
+        for_table: bool,
+    ) -> Result<(Vec<Seen>, Option<Looked>), String> {
+        let Some(pose) = frame.signals.pose_for(Method::Ray) else { return Ok((Vec::new(), None)) };
         let calibration = self.study.calibration.as_ref();
         let Some(view) = corrected_view(calibration, Method::Ray, View::new(self.prepared.camera, pose)) else {
-            return Ok(Vec::new());
+            return Ok((Vec::new(), None));
         };
         let picture = Picture::decode(bytes).map_err(|error| error.to_string())?;
         let rims = find_rims_of(&picture, &view, &self.study.spec.marks.shapes).map_err(|error| error.to_string())?;
         let sure = rims.iter().filter(|rim| rim.confidence >= self.study.spec.marks.min_confidence);
-        Ok(sure.filter_map(|rim| self.seen_rim(number, frame, &view, rim)).collect())
+        let seen = sure.filter_map(|rim| self.seen_rim(number, frame, &view, rim)).collect();
+        Ok((seen, for_table.then(|| Looked::new(number, &picture, &view, &rims))))
     }
 
     /// The rim with all that it is linked by; none where it has no size, or where the marks camera would not show it.
@@ -131,7 +151,7 @@ impl Search<'_> {
         let sighting = self.sighting(number, frame, view, rim)?;
         let image = frame.image.file.clone();
         let least = if found.shape == Shape::Circle { rims::LEAST_POINTS } else { CORNERS };
-        (auto.points_px.len() >= least).then_some(Seen { image, rim: auto, sighting })
+        (auto.points_px.len() >= least).then_some(Seen { image, rim: auto, sighting, rays: rays_of(view, rim) })
     }
 
     fn sighting(&self, number: usize, frame: &Frame, view: &View, rim: &Rim) -> Option<Sighting> {

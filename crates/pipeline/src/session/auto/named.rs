@@ -2,32 +2,41 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use nalgebra::Vector3;
+
+use super::appearance::Appearance;
 use super::link::containers;
-use super::track::Sighting;
+use super::table::OnTable;
+use super::track::{Sighting, Track};
 use crate::labelme::AutoRim;
 use crate::study::FOUND;
-use rims::{Found, as_judged};
+use rims::{Found, as_judged, plate_log_odds};
 
 /// A rim with the sighting by which it is linked to others.
 pub(super) struct Seen {
     pub image: String,
     pub rim: AutoRim,
     pub sighting: Sighting,
+    /// Ideal rays through points along it.
+    pub rays: Vec<Vector3<f64>>,
 }
 
 /// The rims by image, under the name of their container and with its kind and height by all of its images. Numbers go from 1
 /// in the order in which containers are first seen. Those in `taken` are not given, and containers narrower than
-/// `least_diameter_mm` are left out.
+/// `least_diameter_mm` are left out. `on_table`: what is known of containers by their places.
 pub(super) fn name_containers(
     seen: Vec<Seen>,
+    on_table: &[OnTable],
     taken: &BTreeSet<u32>,
     least_diameter_mm: f64,
 ) -> BTreeMap<String, Vec<AutoRim>> {
     let sightings: Vec<Sighting> = seen.iter().map(|seen| seen.sighting).collect();
     let mut free = (1..).filter(|number| !taken.contains(number));
     let mut decided: Vec<Option<(String, Found)>> = vec![None; seen.len()];
-    for track in containers(&sightings) {
-        let Some(appearance) = track.appearance() else { continue };
+    for track in containers(&sightings, on_table) {
+        let Some(appearance) = track.appearance().map(|appearance| by_session(appearance, &track, on_table)) else {
+            continue;
+        };
         let kind = appearance.kind();
         let is_wide = track.narrowest_mm(appearance.height(kind).mm) >= least_diameter_mm;
         if !is_wide {
@@ -47,6 +56,17 @@ pub(super) fn name_containers(
         by_image.entry(image).or_default().push(AutoRim { object, found, ..rim });
     }
     by_image
+}
+
+/// The appearance of a container, with the height that its session gives, where that is surer than what single images show.
+fn by_session(appearance: Appearance, track: &Track, on_table: &[OnTable]) -> Appearance {
+    let of_track = on_table.iter().find(|one| one.members.iter().all(|member| track.members.contains(member)));
+    let Some(height) = of_track.map(OnTable::rim_height) else { return appearance };
+    if height.sigma_mm >= appearance.height(appearance.kind()).sigma_mm {
+        return appearance;
+    }
+    let plate_log_odds = plate_log_odds(&height, track.diameter_mm(height.mm));
+    Appearance { plate: height, bowl: height, plate_log_odds }
 }
 
 #[cfg(test)]
