@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The crates of the workspace in data-flow order, each with those that it may use.
-const LAYERS: [(&str, &[&str]); 7] = [
+const LAYERS: [(&str, &[&str]); 8] = [
     ("model", &[]),
     ("ingest", &["model"]),
     ("rims", &["model", "ingest"]),
-    ("pipeline", &["model", "ingest", "rims"]),
+    ("ties", &["model", "ingest"]),
+    ("pipeline", &["model", "ingest", "rims", "ties"]),
     ("report", &["model"]),
     ("simulate", &["model"]),
     ("cli", &["model", "ingest", "rims", "pipeline", "report", "simulate"]),

@@ -63,7 +63,7 @@ fn main() {
             }
             let start = Instant::now();
             let features = features(&picture, &view, &discs);
-            eprintln!("{} features in {:.0} ms", features.len(), start.elapsed().as_secs_f64() * 1e3);
+            println!("  {} features in {:.0} ms", features.len(), start.elapsed().as_secs_f64() * 1e3);
             let place = &image["camera_mm"];
             shots.push(Shot {
                 features,

@@ -46,9 +46,10 @@ pub(crate) fn corners(ground: &Ground, margin: usize, most: usize) -> Vec<Corner
     let margin = margin.max(WINDOW + 2);
     let mut strengths = vec![0.0_f32; ground.luma.len()];
     let mut candidates = Vec::new();
+    let circle = CIRCLE.map(|(x, y)| y * ground.width.cast_signed() + x);
     for row in margin..ground.height.saturating_sub(margin) {
         for column in margin..ground.width.saturating_sub(margin) {
-            if is_fast(ground, column, row) && ground.is_clear(column, row, margin) {
+            if is_fast(&ground.luma, row * ground.width + column, &circle) && ground.is_clear(column, row, margin) {
                 strengths[row * ground.width + column] = harris(ground, column, row);
                 candidates.push((column, row));
             }
@@ -68,20 +69,17 @@ pub(crate) fn corners(ground: &Ground, margin: usize, most: usize) -> Vec<Corner
     corners
 }
 
-fn is_fast(ground: &Ground, column: usize, row: usize) -> bool {
-    let at = |(x, y): (isize, isize)| {
-        i16::from(ground.luma[row.wrapping_add_signed(y) * ground.width + column.wrapping_add_signed(x)])
-    };
-    let middle = at((0, 0));
-    // Of 9 in a row, at least two lie on the four main points of the compass.
-    let main = [0, 4, 8, 12].map(|i| at(CIRCLE[i]) - middle);
-    let many = |is: fn(&i16) -> bool| main.iter().filter(|difference| is(difference)).count() >= 2;
-    if !many(|difference| *difference > THRESHOLD) && !many(|difference| *difference < -THRESHOLD) {
+fn is_fast(luma: &[u8], at: usize, circle: &[isize; 16]) -> bool {
+    let middle = i16::from(luma[at]);
+    let difference = |i: usize| i16::from(luma[at.wrapping_add_signed(circle[i])]) - middle;
+    // Of 9 in a row, one of any two that are opposite is among them.
+    let differs = |i: usize| difference(i).abs() > THRESHOLD;
+    if !(differs(0) || differs(8)) || !(differs(4) || differs(12)) {
         return false;
     }
     let (mut brighter, mut darker) = (0_u32, 0_u32);
-    for (i, at_circle) in CIRCLE.into_iter().enumerate() {
-        let difference = at(at_circle) - middle;
+    for i in 0..16 {
+        let difference = difference(i);
         brighter |= u32::from(difference > THRESHOLD) << i;
         darker |= u32::from(difference < -THRESHOLD) << i;
     }

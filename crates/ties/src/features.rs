@@ -10,7 +10,7 @@ pub use crate::ground::Disc;
 use crate::ground::{Grid, Ground, Luma};
 
 /// The scales at which the table is looked at, in mm of a pixel: fine grain, and what is left of it further away.
-const SCALES_MM: [f64; 3] = [1.0, 1.2, 1.44];
+const SCALES_MM: [f64; 3] = [1.25, 1.5, 1.8];
 /// The most features of one scale.
 const MOST_OF_SCALE: [usize; 3] = [300, 300, 300];
 

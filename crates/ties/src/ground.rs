@@ -7,9 +7,9 @@ use nalgebra::{Point2, Point3};
 /// The picture is reduced to about this longer side: on a table half a metre away, a pixel is then half a millimetre.
 const SIDE_PX: u32 = 1296;
 /// The part of the table that is looked at, from the point under the camera, in mm: left and right, near and far.
-const SIDEWAYS_MM: f64 = 450.0;
-const NEAR_MM: f64 = -150.0;
-const FAR_MM: f64 = 750.0;
+const SIDEWAYS_MM: f64 = 350.0;
+const NEAR_MM: f64 = -100.0;
+const FAR_MM: f64 = 600.0;
 /// The places of the picture are worked out at points of the table this far apart, and between them by interpolation.
 const STEP_MM: f64 = 10.0;
 /// Where a pixel covers more of the table than this, there is nothing to be seen, in mm.
@@ -86,31 +86,23 @@ pub(crate) struct Ground {
     /// Sums of what is not seen, of everything above and left of a pixel; one more column and row than pixels.
     hidden: Vec<f64>,
     /// What is left out.
-    left_out: Vec<bool>,
+    left_out: Vec<Disc>,
 }
 
 impl Ground {
     /// The table as a view shows it, without what lies in `left_out`.
     pub fn new(luma: &Luma, grid: &Grid, left_out: &[Disc], mm_per_px: f64) -> Self {
         let [width, height] = [2.0 * SIDEWAYS_MM, FAR_MM - NEAR_MM].map(|side| count(side / mm_per_px));
-        let mut ground = Self {
-            mm_per_px,
-            width,
-            height,
-            luma: Vec::new(),
-            hidden: Vec::new(),
-            left_out: vec![false; width * height],
-        };
+        let mut ground =
+            Self { mm_per_px, width, height, luma: Vec::new(), hidden: Vec::new(), left_out: left_out.to_vec() };
         let mut values = vec![f32::NAN; width * height];
         let mut is_hidden = vec![true; width * height];
         for row in 0..height {
             for column in 0..width {
                 let at_mm = ground.place_mm([to_f64(column), to_f64(row)]);
-                let is_out = |disc: &Disc| (at_mm - disc.center_mm).norm_squared() < disc.radius_mm * disc.radius_mm;
                 if let Some(value) = grid.pixel(at_mm).and_then(|pixel| luma.at(pixel)) {
                     values[row * width + column] = value;
                     is_hidden[row * width + column] = false;
-                    ground.left_out[row * width + column] = left_out.iter().any(is_out);
                 }
             }
         }
@@ -126,7 +118,9 @@ impl Ground {
 
     /// Whether a pixel is not left out and everything within `margin` pixels is seen.
     pub fn is_clear(&self, column: usize, row: usize, margin: usize) -> bool {
-        if self.left_out[row * self.width + column] {
+        let at_mm = self.place_mm([to_f64(column), to_f64(row)]);
+        let is_in = |disc: &Disc| (at_mm - disc.center_mm).norm_squared() < disc.radius_mm * disc.radius_mm;
+        if self.left_out.iter().any(is_in) {
             return false;
         }
         if column < margin || row < margin || column + margin >= self.width || row + margin >= self.height {

@@ -16,7 +16,7 @@ const NEAR_MM: f64 = 6.0;
 /// The same once the bend is taken up.
 const CLOSE_MM: f64 = 4.0;
 /// Fewer matches may follow one motion by chance, or because they all lie on one thing that stands up.
-const LEAST_MATCHES: usize = 8;
+const LEAST_MATCHES: usize = 12;
 /// The matches spread over at least this, in mm (standard deviation along the axis along which they spread less).
 const LEAST_SPREAD_MM: f64 = 12.0;
 /// The number of pairs of matches that are tried.

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector, Matrix2, SVector, Vector2};
 
 use super::BundleInput;
-use super::residuals::{self, RIM, State};
+use super::residuals::{self, RIM, SensorRow, State, TieRows};
 use super::shot::SHOT;
 
 /// Tie points and rim points further off than this many standard uncertainties count for less and less (Cauchy's weights).
@@ -59,7 +59,7 @@ impl Normal {
     }
 
     fn add_sensors(&mut self, input: &BundleInput, state: &State, number: usize) {
-        for (residual, by_shot, by_common) in residuals::sensors(input, state, number) {
+        for SensorRow { residual, by_shot, by_common } in residuals::sensors(input, state, number) {
             let mut row = DVector::zeros(self.gradient.len());
             row.rows_mut(SHOT * number, SHOT).copy_from(&by_shot);
             if let Some((which, derivative)) = by_common {
@@ -97,7 +97,8 @@ impl Normal {
 
     fn add_tie(&mut self, input: &BundleInput, state: &State, tie: &super::BundleTie) {
         let (shot, feature) = (&state.shots[tie.shot], &state.features[tie.feature]);
-        let Some((residual, by_shot, by_feature)) = residuals::tie(shot, feature, &tie.ray, &input.sigma) else {
+        let Some(TieRows { residual, by_shot, by_feature }) = residuals::tie(shot, feature, &tie.ray, &input.sigma)
+        else {
             self.cost += UNSEEN;
             return;
         };

@@ -22,13 +22,27 @@ pub(super) struct State {
 const STEPS: ShotParameters = [1e-6, 1e-6, 1e-6, 1e-3, 1e-3, 1e-3];
 const STEP_MM: f64 = 1e-3;
 
+/// The two residuals of a tie point with their derivatives.
+pub(super) struct TieRows {
+    pub residual: [f64; 2],
+    pub by_shot: [SVector<f64, SHOT>; 2],
+    pub by_feature: [SVector<f64, 2>; 2],
+}
+
+/// A residual of a shot's sensors with its derivatives: by the shot, and by the common error of this number.
+pub(super) struct SensorRow {
+    pub residual: f64,
+    pub by_shot: SVector<f64, SHOT>,
+    pub by_common: Option<(usize, f64)>,
+}
+
 /// The residual of a tie point, and its derivatives by shot and feature; none where the feature is behind the camera.
 pub(super) fn tie(
     shot: &ShotParameters,
     feature: &[f64; 2],
     ray: &Vector3<f64>,
     sigma: &BundleSigma,
-) -> Option<([f64; 2], [SVector<f64, SHOT>; 2], [SVector<f64, 2>; 2])> {
+) -> Option<TieRows> {
     let of = |shot: &ShotParameters, feature: &[f64; 2]| -> Option<[f64; 2]> {
         let [x, y] = Stand::new(shot).image_of(Point2::from(*feature))?;
         Some([(x - ray.x / ray.z) / sigma.tie_rad, (y - ray.y / ray.z) / sigma.tie_rad])
@@ -40,12 +54,12 @@ pub(super) fn tie(
         let (above, below) = (above?, below?);
         (0..2).for_each(|k| by_shot[k][i] = (above[k] - below[k]) / (2.0 * step));
     }
-    for i in 0..2 {
-        let [above, below] = [STEP_MM, -STEP_MM].map(|step| of(shot, &moved(feature, i, step)));
+    for axis in [0, 1] {
+        let [above, below] = [STEP_MM, -STEP_MM].map(|step| of(shot, &moved(feature, axis, step)));
         let (above, below) = (above?, below?);
-        (0..2).for_each(|k| by_feature[k][i] = (above[k] - below[k]) / (2.0 * STEP_MM));
+        (0..2).for_each(|k| by_feature[k][axis] = (above[k] - below[k]) / (2.0 * STEP_MM));
     }
-    Some((residual, by_shot, by_feature))
+    Some(TieRows { residual, by_shot, by_feature })
 }
 
 /// The residual of a point of a rim, and its derivatives by shot and container; none where its ray does not reach the rim's level.
@@ -75,11 +89,7 @@ pub(super) fn rim_point(
 
 /// The residuals of a shot against its sensors: pitch, roll and range, each with its derivatives by the shot, and by the common error
 /// of the same kind (none for the range).
-pub(super) fn sensors(
-    input: &BundleInput,
-    state: &State,
-    number: usize,
-) -> [(f64, SVector<f64, SHOT>, Option<(usize, f64)>); 3] {
+pub(super) fn sensors(input: &BundleInput, state: &State, number: usize) -> [SensorRow; 3] {
     let (shot, sensed, sigma) = (&state.shots[number], &input.shots[number].sensed, &input.sigma);
     let mut by_pitch = SVector::zeros();
     by_pitch[0] = 1.0 / sigma.own_rad;
@@ -88,12 +98,16 @@ pub(super) fn sensors(
     let mut by_range = SVector::zeros();
     by_range[0] = -1.0 / shot[0].tan() / sigma.own_range;
     by_range[5] = 1.0 / shot[5] / sigma.own_range;
+    let angle = |i: usize, sensed: f64, by_shot| SensorRow {
+        residual: (shot[i] - sensed - state.common[i]) / sigma.own_rad,
+        by_shot,
+        by_common: Some((i, -1.0 / sigma.own_rad)),
+    };
     let range = (shot[5] / shot[0].sin() / sensed.range_mm()).ln() / sigma.own_range;
-    let by_common = -1.0 / sigma.own_rad;
     [
-        ((shot[0] - sensed.pitch_rad() - state.common[0]) / sigma.own_rad, by_pitch, Some((0, by_common))),
-        ((shot[1] - sensed.roll_rad() - state.common[1]) / sigma.own_rad, by_roll, Some((1, by_common))),
-        (range, by_range, None),
+        angle(0, sensed.pitch_rad(), by_pitch),
+        angle(1, sensed.roll_rad(), by_roll),
+        SensorRow { residual: range, by_shot: by_range, by_common: None },
     ]
 }
 

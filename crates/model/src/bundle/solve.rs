@@ -188,7 +188,7 @@ fn rim_misfit(input: &BundleInput, state: &State, rim: &BundleRim) -> f64 {
 fn tie_misfit(input: &BundleInput, state: &State, number: usize) -> f64 {
     let tie = &input.ties[number];
     residuals::tie(&state.shots[tie.shot], &state.features[tie.feature], &tie.ray, &input.sigma)
-        .map_or(f64::INFINITY, |([x, y], ..)| x.hypot(y) / std::f64::consts::SQRT_2)
+        .map_or(f64::INFINITY, |rows| rows.residual[0].hypot(rows.residual[1]) / std::f64::consts::SQRT_2)
 }
 
 /// The root of the mean square; 0 of nothing.

@@ -21,7 +21,7 @@ use rims::RimShape;
 /// Version of what the signals stage gives. A change of meaning gives another number, and recordings are read anew.
 const SIGNALS_VERSION: u32 = 2;
 /// Version of what measuring gives, likewise.
-const MEASURE_VERSION: u32 = 7;
+const MEASURE_VERSION: u32 = 8;
 
 #[derive(Serialize)]
 struct SignalsParts<'a> {

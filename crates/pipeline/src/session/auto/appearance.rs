@@ -74,6 +74,13 @@ impl PooledAppearance {
     }
 }
 
+/// The appearance by several images; none where there is no image.
+pub(super) fn pooled<'a>(all: impl Iterator<Item = &'a Appearance>) -> Option<Appearance> {
+    let mut pooled = PooledAppearance::default();
+    all.for_each(|appearance| pooled.add(appearance));
+    pooled.appearance()
+}
+
 fn limited(log_odds: f64) -> f64 {
     if log_odds.is_nan() { 0.0 } else { log_odds.clamp(-MOST_LOG_ODDS, MOST_LOG_ODDS) }
 }

@@ -97,13 +97,13 @@ mod tests {
             appearance: Appearance { plate, bowl, plate_log_odds },
         };
         let rim = AutoRim { object: String::new(), points_px: Vec::new(), found };
-        Seen { image: format!("{image}.jpg"), rim, sighting }
+        Seen { image: format!("{image}.jpg"), rim, sighting, rays: Vec::new() }
     }
 
     #[test]
     fn all_images_of_a_container_have_its_kind_and_height() {
         let images = vec![seen(0, 200.0, -9.0, 50.0), seen(1, 201.0, 1.0, 70.0), seen(2, 199.0, -9.0, 60.0)];
-        let by_image = name_containers(images, &BTreeSet::new(), LEAST_MM);
+        let by_image = name_containers(images, &[], &BTreeSet::new(), LEAST_MM);
         let rims: Vec<&AutoRim> = by_image.values().flatten().collect();
         assert_eq!(rims.len(), 3);
         for rim in rims {
@@ -116,7 +116,7 @@ mod tests {
     #[test]
     fn a_height_is_less_sure_where_the_kind_is() {
         let sigma_mm = |plate_log_odds: f64| {
-            let by_image = name_containers(vec![seen(0, 200.0, plate_log_odds, 60.0)], &BTreeSet::new(), LEAST_MM);
+            let by_image = name_containers(vec![seen(0, 200.0, plate_log_odds, 60.0)], &[], &BTreeSet::new(), LEAST_MM);
             by_image["0.jpg"][0].found.height.sigma_mm
         };
         assert!((sigma_mm(-9.0) - 10.0).abs() < 0.2, "{}", sigma_mm(-9.0));
@@ -126,7 +126,7 @@ mod tests {
     #[test]
     fn numbers_are_of_what_is_kept_and_free() {
         let images = vec![seen(0, 80.0, -6.0, 60.0), seen(0, 150.0, -6.0, 60.0), seen(1, 250.0, 6.0, 60.0)];
-        let by_image = name_containers(images, &BTreeSet::from([1, 3]), LEAST_MM);
+        let by_image = name_containers(images, &[], &BTreeSet::from([1, 3]), LEAST_MM);
         let names = |image: &str| by_image[image].iter().map(|rim| rim.object.as_str()).collect::<Vec<_>>();
         assert_eq!((names("0.jpg"), names("1.jpg")), (vec!["auto-2"], vec!["auto-4"]), "a cup has no name");
     }
@@ -135,6 +135,46 @@ mod tests {
     #[test]
     fn a_container_is_narrow_in_all_of_its_images_or_in_none() {
         let cup = vec![seen(0, 109.0, -6.0, 60.0), seen(1, 103.0, -6.0, 60.0), seen(2, 102.0, -6.0, 60.0)];
-        assert!(name_containers(cup, &BTreeSet::new(), LEAST_MM).is_empty());
+        assert!(name_containers(cup, &[], &BTreeSet::new(), LEAST_MM).is_empty());
+    }
+
+    /// Single images take it for a plate of 20 mm; the session sees that its rim is at 72 mm.
+    #[test]
+    fn the_height_by_the_session_decides_height_and_kind() {
+        let images = || vec![seen(0, 200.0, 3.0, 60.0), seen(1, 201.0, 3.0, 60.0)];
+        let height = |height_mm: (f64, f64)| {
+            let on_table = [OnTable { members: vec![0, 1], height_mm }];
+            name_containers(images(), &on_table, &BTreeSet::new(), LEAST_MM)["1.jpg"][0].found
+        };
+        let sure = height((72.0, 3.0));
+        assert_eq!((sure.kind, sure.height.source), (Kind::Bowl, HeightSource::Session));
+        assert!((sure.height.mm - 72.0).abs() < 1e-9 && (sure.height.sigma_mm - 3.0).abs() < 0.1, "{sure:?}");
+        let flat = height((17.0, 3.0));
+        assert_eq!((flat.kind, flat.height.source), (Kind::Plate, HeightSource::Session));
+        let unsure = height((72.0, 40.0));
+        assert_eq!(
+            (unsure.kind, unsure.height.source),
+            (Kind::Plate, HeightSource::Foot),
+            "one place alone knows nothing"
+        );
+    }
+
+    #[test]
+    fn places_decide_before_sizes_do() {
+        // Sizes alone would make two containers of the first two, and one of the last two.
+        let images = || vec![seen(0, 200.0, -6.0, 60.0), seen(1, 240.0, -6.0, 60.0), seen(2, 241.0, -6.0, 60.0)];
+        let names = |on_table: &[OnTable]| {
+            let by_image = name_containers(images(), on_table, &BTreeSet::new(), LEAST_MM);
+            by_image.into_values().flatten().map(|rim| rim.object).collect::<Vec<_>>()
+        };
+        assert_eq!(names(&[]), ["auto-1", "auto-2", "auto-2"]);
+        let at = |members: &[usize]| OnTable { members: members.to_vec(), height_mm: (60.0, 50.0) };
+        assert_eq!(
+            names(&[at(&[0, 1])]),
+            ["auto-1", "auto-1", "auto-1"],
+            "what is not tied goes with most of its track"
+        );
+        let apart = names(&[at(&[0]), at(&[1]), at(&[2])]);
+        assert_eq!(apart, ["auto-1", "auto-2", "auto-2"], "one that was moved keeps its name by its size");
     }
 }

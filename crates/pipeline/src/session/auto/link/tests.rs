@@ -32,7 +32,7 @@ fn rim(at_s: i64, across_mm: f64, at_mm: [f64; 2]) -> Sighting {
 /// Number of the container of every sighting, from 1.
 fn numbers(seen: &[Sighting]) -> Vec<usize> {
     let mut numbers = vec![0; seen.len()];
-    for (number, track) in (1..).zip(containers(seen)) {
+    for (number, track) in (1..).zip(containers(seen, &[])) {
         for member in track.members {
             assert_eq!(numbers[member], 0, "each sighting is of one container");
             numbers[member] = number;

@@ -6,7 +6,7 @@ use nalgebra::{Point2, Vector3};
 
 /// A round rim of a picture that is tied to others.
 #[derive(Debug, Clone)]
-pub(in super::super) struct Candidate {
+pub(in crate::session::auto) struct Candidate {
     /// The number of the sighting.
     pub sighting: usize,
     /// The number of its picture among those that are tied.
@@ -17,7 +17,7 @@ pub(in super::super) struct Candidate {
 
 /// A rim as it appears on Z = 0, in the common frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in super::super) struct AtPlace {
+pub(in crate::session::auto) struct AtPlace {
     pub center_mm: Point2<f64>,
     pub radius_mm: f64,
     /// The point under the camera, and the camera's height above the table.
