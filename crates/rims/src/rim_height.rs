@@ -2,8 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::priors::{CUPS_BY_DIAMETER, CUPS_MM, PLATES_BY_DIAMETER, ROUND_BOWLS, ROUND_PLATES};
-
 /// The height of a rim above the table, in mm.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -38,28 +36,6 @@ pub enum HeightSource {
 pub fn as_judged(plate: RimHeight, bowl: RimHeight, plate_log_odds: f64) -> (RimHeight, RimHeight) {
     let is_other = 1.0 / (1.0 + plate_log_odds.abs().exp());
     if plate_log_odds >= 0.0 { (plate.unless(&bowl, is_other), bowl) } else { (plate, bowl.unless(&plate, is_other)) }
-}
-
-/// No rim is lower, in mm.
-const LEAST_MM: f64 = 1.0;
-
-/// Natural logarithm of the odds of a plate against a bowl or cup, by the height and the diameter of a rim (`priors.rs`).
-#[must_use]
-pub fn plate_log_odds(height: &RimHeight, diameter_mm: f64) -> f64 {
-    let RimHeight { mm, sigma_mm, .. } = *height;
-    let ln_density = |off: f64, sd: f64| -0.5 * (off / sd).powi(2) - sd.ln();
-    let plate = ln_density(mm - ROUND_PLATES.mean * diameter_mm, (ROUND_PLATES.sd * diameter_mm).hypot(sigma_mm));
-    let hollow = |median_mm: f64, ln_sd: f64| {
-        // The density by the logarithm, over the height, becomes that by the height.
-        let mm = mm.max(LEAST_MM);
-        ln_density((mm / median_mm).ln(), ln_sd.hypot(sigma_mm / mm)) - mm.ln()
-    };
-    let bowl = hollow(ROUND_BOWLS.median * diameter_mm, ROUND_BOWLS.ln_sd);
-    let cup = hollow(CUPS_MM.median, CUPS_MM.ln_sd);
-    let cups = CUPS_BY_DIAMETER.at_diameter(diameter_mm);
-    let hollow = ((1.0 - cups) * bowl.exp() + cups * cup.exp()).max(f64::MIN_POSITIVE).ln();
-    let plates = PLATES_BY_DIAMETER.at_diameter(diameter_mm);
-    plate - hollow + (plates / (1.0 - plates)).ln()
 }
 
 impl RimHeight {

@@ -2,7 +2,9 @@
 
 mod floor;
 mod heights;
+mod kind;
 mod raster;
 mod wall;
 
 pub(crate) use heights::{Heights, of_rim};
+pub use kind::plate_log_odds;
