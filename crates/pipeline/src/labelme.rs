@@ -18,7 +18,7 @@ pub use error::MarksError;
 pub use frame::{FrameFault, MarkedPicture, MarksFrame};
 use rims::Found;
 pub use seal::MarksAuthor;
-pub(crate) use seal::author_of;
+pub(crate) use seal::{author_of, seal_in};
 pub(crate) use write::{AutoRim, Shape as OutShape, text_of, text_of_shapes};
 
 mod corners;

@@ -8,7 +8,7 @@ use ingest::card::entry_named;
 use ingest::orientation_of_file;
 use model::{Orientation, Stage};
 
-use crate::labelme::{AutoRim, MarkedPicture, MarksAuthor, author_of, read_bytes, text_of};
+use crate::labelme::{AutoRim, MarkedPicture, MarksAuthor, author_of, read_bytes, seal_in, text_of};
 use crate::session::{Prepared, SessionOutput};
 use crate::study::{AUTO, SessionDir, Study, marks_in, stem_of};
 use crate::work::{WorkError, WorkFolder};
@@ -186,8 +186,13 @@ fn failed(path: &Path, source: io::Error) -> WriteMarksError {
 fn write_unless_other(path: &Path, text: &str) -> io::Result<Done> {
     match std::fs::read(path) {
         Ok(there) if there == text.as_bytes() => return Ok(Done::AsWritten),
-        Ok(there) if author_of(&there) == MarksAuthor::Person => return Ok(Done::LeftCorrected),
-        Ok(_) => return Ok(Done::LeftOtherRun),
+        Ok(there) => {
+            return Ok(match seal_in(&there) {
+                None => Done::LeftCorrected,
+                same if same == seal_in(text.as_bytes()) => Done::AsWritten, // somebody looked at it, and saved it
+                Some(_) => Done::LeftOtherRun,
+            });
+        }
         Err(error) if error.kind() == io::ErrorKind::NotFound => {}
         Err(error) => return Err(error),
     }
@@ -234,7 +239,11 @@ mod tests {
         assert_eq!(std::fs::read(&path).unwrap(), b"mine");
         let sealed = text_of(&[], "a.jpg", [4, 3]).unwrap();
         std::fs::write(&path, &sealed).unwrap();
-        assert_eq!(write_unless_other(&path, "other").unwrap(), Done::LeftOtherRun);
+        let again = sealed.replace("5.4.1", "6.3.1");
+        assert_ne!(again, sealed);
+        assert_eq!(write_unless_other(&path, &again).unwrap(), Done::AsWritten, "the same marks");
+        let with_rim = sealed.replace("\"marks_sha256\": \"", "\"marks_sha256\": \"0");
+        assert_eq!(write_unless_other(&path, &with_rim).unwrap(), Done::LeftOtherRun);
         assert_eq!(std::fs::read(&path).unwrap(), sealed.as_bytes());
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }

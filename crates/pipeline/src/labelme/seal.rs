@@ -62,21 +62,28 @@ pub(super) fn seal_of(mut shapes: Vec<Sealed<'_>>) -> serde_json::Result<String>
 impl LabelMeFile<'_> {
     /// Who made its marks.
     pub(super) fn author(&self) -> MarksAuthor {
-        let is_sealed = || {
-            let key: FileKey = serde_json::from_str(self.key?.get()).ok()?;
-            let shapes: Vec<Shape> =
-                self.shapes.iter().map(|shape| serde_json::from_str(shape.get())).collect::<Result<_, _>>().ok()?;
-            let sealed = shapes.iter().map(Sealed::of_shape).collect::<Option<_>>()?;
-            Some(seal_of(sealed).ok()? == key.marks_sha256)
-        };
-        if is_sealed() == Some(true) { MarksAuthor::Program } else { MarksAuthor::Person }
+        if self.seal().is_some() { MarksAuthor::Program } else { MarksAuthor::Person }
+    }
+
+    /// Its seal, where that fits its marks.
+    fn seal(&self) -> Option<String> {
+        let key: FileKey = serde_json::from_str(self.key?.get()).ok()?;
+        let shapes: Vec<Shape> =
+            self.shapes.iter().map(|shape| serde_json::from_str(shape.get())).collect::<Result<_, _>>().ok()?;
+        let sealed = shapes.iter().map(Sealed::of_shape).collect::<Option<_>>()?;
+        (seal_of(sealed).ok()? == key.marks_sha256).then_some(key.marks_sha256)
     }
 }
 
 /// Who made the marks in the bytes of a LabelMe file. What is no such file was not written by the program.
 pub(crate) fn author_of(bytes: &[u8]) -> MarksAuthor {
+    if seal_in(bytes).is_some() { MarksAuthor::Program } else { MarksAuthor::Person }
+}
+
+/// The seal in the bytes of a LabelMe file whose marks nobody changed, by which it is seen to hold the same marks as another one.
+pub(crate) fn seal_in(bytes: &[u8]) -> Option<String> {
     let bytes = json::with_null_for_nan(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
-    serde_json::from_slice::<LabelMeFile<'_>>(&bytes).map_or(MarksAuthor::Person, |file| file.author())
+    serde_json::from_slice::<LabelMeFile<'_>>(&bytes).ok()?.seal()
 }
 
 #[cfg(test)]

@@ -74,10 +74,14 @@ impl Search<'_> {
         let mut reader = SessionReader::open(self.mcap).map_err(refuse)?;
         let frames = frames(self.study, self.prepared, recording);
         let is_free = |frame: &Frame| !checked.contains(&stem_of(&frame.image.file));
+        let is_measured = |frame: &Frame| frame.signals.reason == FrameReason::Selected && is_free(frame);
+        if !frames.iter().any(is_measured) {
+            return Ok(auto); // no picture is opened for the table alone
+        }
         let for_table = pictures_of_table(&frames);
         let (mut seen, mut helping, mut looked) = (Vec::new(), Vec::new(), Vec::new());
         for (number, frame) in frames.iter().enumerate() {
-            let is_measured = frame.signals.reason == FrameReason::Selected && is_free(frame);
+            let is_measured = is_measured(frame);
             if !is_measured && !for_table.contains(&number) {
                 continue;
             }

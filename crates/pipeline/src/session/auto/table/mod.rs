@@ -27,8 +27,7 @@ use super::appearance::pooled;
 use super::named::Seen;
 use super::track::Sighting;
 use crate::session::frames::Frame;
-use cluster::Candidate;
-use cluster::{AtPlace, clusters};
+use cluster::{AtPlace, Candidate, clusters};
 pub(super) use looked::{Looked, rays_of};
 
 /// A container at its place.
