@@ -5,6 +5,7 @@ use std::io::Read;
 
 use jiff::tz::TimeZone;
 
+use super::csv_columns::{Columns, shown};
 use super::csv_rows::CsvRows;
 use super::possible::PossibleCounts;
 use super::raw::{RawBlock, Stamps};
@@ -14,8 +15,6 @@ use crate::profile::{CsvFormat, RowTime};
 
 /// Rows per block.
 const BATCH_ROWS: usize = 1024;
-/// Columns that a message lists.
-const SHOWN_COLUMNS: usize = 30;
 
 /// The columns to read from a CSV file, and its form.
 #[derive(Debug, Clone)]
@@ -46,14 +45,6 @@ pub struct CsvSamples<R: Read> {
     impossible: u64,
     first_impossible: Option<String>,
     end: Option<Fault>,
-}
-
-/// The places of the columns in a row.
-#[derive(Clone)]
-struct Columns {
-    time: Option<usize>,
-    values: Vec<usize>,
-    extra: Vec<usize>,
 }
 
 /// The content of a row that can be read.
@@ -100,7 +91,7 @@ impl<R: Read> CsvSamples<R> {
         if self.end.is_some() {
             return None;
         }
-        let columns = match self.columns.take().map_or_else(|| self.find_columns(), Ok) {
+        let columns = match self.columns.take().map_or_else(|| Columns::find(&mut self.rows, &self.layout), Ok) {
             Ok(columns) => columns,
             Err(fault) => {
                 self.end = Some(fault);
@@ -158,39 +149,9 @@ impl<R: Read> CsvSamples<R> {
         true
     }
 
-    fn find_columns(&mut self) -> Result<Columns, Fault> {
-        for _ in 0..self.layout.format.skip_lines {
-            if !self.rows.skip_line()? {
-                break;
-            }
-        }
-        let layout = &self.layout;
-        if !layout.format.header {
-            let numbered = |name: &String| {
-                let number = name.strip_prefix('#').and_then(|number| number.parse::<usize>().ok());
-                number.and_then(|number| number.checked_sub(1)).ok_or_else(|| Fault::MissingColumn {
-                    column: name.clone(),
-                    found: "columns by number: #1, #2 and so on".to_owned(),
-                })
-            };
-            return columns(layout, numbered);
-        }
-        if !self.rows.next_row()? {
-            return Err(Fault::NoSamples);
-        }
-        let header = &self.rows;
-        columns(layout, |name: &String| {
-            let position = |name: &String| header.fields().position(|column| column.trim_ascii() == name.as_bytes());
-            let others = || layout.format.other_names.get(name).into_iter().flatten().find_map(position);
-            position(name).or_else(others).ok_or_else(|| Fault::MissingColumn {
-                column: name.clone(),
-                found: header.fields().take(SHOWN_COLUMNS).map(shown).collect::<Vec<_>>().join(", "),
-            })
-        })
-    }
-
     /// Appends the row, if it holds a sample.
     fn sample(&self, columns: &Columns, batch: &mut Batch) -> Result<Row, String> {
+        columns.check_width(&self.rows)?;
         let stamp = columns.time.map(|column| self.stamp(column)).transpose()?;
         let mut counts = [0.0; 3];
         for ((count, column), name) in counts.iter_mut().zip(&columns.values).zip(&self.layout.values) {
@@ -269,14 +230,6 @@ impl<R: Read> CsvSamples<R> {
     }
 }
 
-fn columns(layout: &CsvLayout, find: impl Fn(&String) -> Result<usize, Fault>) -> Result<Columns, Fault> {
-    Ok(Columns {
-        time: layout.time.column.as_ref().map(&find).transpose()?,
-        values: layout.values.iter().map(&find).collect::<Result<_, _>>()?,
-        extra: layout.extra.iter().map(&find).collect::<Result<_, _>>()?,
-    })
-}
-
 /// A date and time as text: with an offset in ns since 1970 UTC, without one in ns since 1970-01-01 on the wall clock.
 fn civil_ns(field: &[u8], format: &str) -> Result<i64, String> {
     let timestamp = match written_time::parse(field, format, false)? {
@@ -288,9 +241,4 @@ fn civil_ns(field: &[u8], format: &str) -> Result<i64, String> {
         WrittenTime::Local(civil) => TimeZone::UTC.to_timestamp(civil).map_err(|error| error.to_string())?,
     };
     i64::try_from(timestamp.as_nanosecond()).map_err(|error| error.to_string())
-}
-
-/// Untrusted bytes for a message: printable and short.
-fn shown(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(&bytes.trim_ascii()[..bytes.trim_ascii().len().min(40)]).escape_debug().to_string()
 }

@@ -90,6 +90,18 @@ pub enum Fault {
         /// The columns there are.
         found: String,
     },
+    /// A column that the profile names is in the first line more than once.
+    #[error(
+        "the first line has column '{column}' twice, as columns {first} and {second}: which is meant cannot be told, and the file is not read"
+    )]
+    RepeatedColumn {
+        /// The column.
+        column: String,
+        /// Its first place, from 1.
+        first: usize,
+        /// Its second place, from 1.
+        second: usize,
+    },
     /// Rows that cannot be read.
     #[error("{rows} rows cannot be read and are left out, the first in line {first_line}: {first}")]
     BadRows {
@@ -186,6 +198,7 @@ impl Fault {
             Self::BadBlocks { .. } => ProblemCode::BadBlocks,
             Self::BadStamp { .. } => ProblemCode::BadStamp,
             Self::MissingColumn { .. } => ProblemCode::MissingColumn,
+            Self::RepeatedColumn { .. } => ProblemCode::RepeatedColumn,
             Self::BadRows { .. } => ProblemCode::BadRows,
             Self::ImpossibleAcceleration { .. } => ProblemCode::ImpossibleAcceleration,
             Self::LongLine { .. } => ProblemCode::LongLine,
@@ -210,7 +223,12 @@ impl Fault {
             }
             Self::BadStamp { .. } => "check header, endian and the stamp's type in the device profile",
             Self::MissingColumn { .. } => "correct the column's name in the device profile, or the file",
-            Self::BadRows { .. } => "look at that line; time and values are plain decimal numbers",
+            Self::RepeatedColumn { .. } => {
+                "rename one of them in the file; or declare header = false, skip_lines = 1 and columns by number, such as #2"
+            }
+            Self::BadRows { .. } => {
+                "look at that line; time and values are plain decimal numbers, and no row has more fields than the header"
+            }
             Self::ImpossibleAcceleration { samples, of, .. } if 2 * samples > *of => {
                 "correct g_per_count, zero_g_counts or full_scale_g in the device profile: no sensor reads so much all the time"
             }

@@ -2,6 +2,7 @@
 //! No parser panics, whatever the input (`fuzz/`).
 
 mod convert;
+mod csv_columns;
 mod csv_file;
 mod csv_rows;
 pub mod cwa;

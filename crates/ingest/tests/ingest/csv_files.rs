@@ -69,6 +69,42 @@ fn empty_values_are_missing_and_bad_ones_are_reported_with_their_line() {
     assert_eq!(faults, [Fault::BadRows { rows: 3, bytes: 10, first_line: 5, first }]);
 }
 
+/// Decimal commas in a file that has commas between its fields: 51,5 is not 51.
+#[test]
+fn a_row_with_more_fields_than_the_header_is_lost_and_told() {
+    let (samples, faults) = read(b"t,range\n1,2\n2,51,5\n3,4\n", TimeUnit::S, b',');
+    assert_eq!(samples, [range(1_000_000_000, 20.0), range(3_000_000_000, 40.0)]);
+    let first = "the row has 3 fields, the header 2".to_owned();
+    assert_eq!(faults, [Fault::BadRows { rows: 1, bytes: 6, first_line: 3, first }]);
+}
+
+/// A text with a delimiter in it, before the value: what stands at the value's place belongs to another column.
+#[test]
+fn a_text_with_a_delimiter_does_not_move_values() {
+    let (samples, faults) = read(b"t;place;range;mode\n1;home;20;1\n2;home;9;21;1\n", TimeUnit::S, b';');
+    assert_eq!(samples, [range(1_000_000_000, 200.0)]);
+    assert!(matches!(faults[..], [Fault::BadRows { rows: 1, first_line: 3, .. }]), "{faults:?}");
+}
+
+#[test]
+fn delimiters_at_the_end_of_rows_are_no_fields_too_many() {
+    let (samples, faults) = read(b"t,range\n1,2,\n2,3, ,\r\n3\n", TimeUnit::S, b',');
+    assert_eq!(samples, [range(1_000_000_000, 20.0), range(2_000_000_000, 30.0)]);
+    let first = "the row ends before column 'range'".to_owned();
+    assert_eq!(faults, [Fault::BadRows { rows: 1, bytes: 1, first_line: 4, first }]);
+}
+
+#[test]
+fn a_column_that_is_there_twice_is_read_only_where_the_profile_does_not_name_it() {
+    let (samples, faults) = read(b"t,range,note,range\n1,2,,3\n", TimeUnit::S, b',');
+    assert!(samples.is_empty());
+    assert_eq!(faults, [Fault::RepeatedColumn { column: "range".to_owned(), first: 2, second: 4 }]);
+    assert_eq!(faults[0].code().code(), "repeated_column");
+    let (samples, faults) = read(b"t,note,range,note\n1,,2,\n", TimeUnit::S, b',');
+    assert_eq!(samples, [range(1_000_000_000, 20.0)]);
+    assert_eq!(faults, []);
+}
+
 #[test]
 fn a_row_without_end_does_not_fill_the_memory() {
     let endless = [b"t,range\n1,2\n".to_vec(), vec![0; 1 << 20]].concat();
