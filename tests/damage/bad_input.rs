@@ -154,6 +154,11 @@ fn sensors_that_are_silent_or_wrong() {
     study.session("bad", &[Shot { range_mm: 8190.0, marks: None, ..shot() }]);
     assert_told_and_rest_complete(&study, &["no_image_with_pose", "too few valid range samples"]);
     assert_eq!(reasons(&study, "bad"), [FrameReason::NoRange]);
+    study.session("bad", &[Shot { range_mm: 0.45, marks: None, ..shot() }]);
+    assert_told_and_rest_complete(
+        &study,
+        &["no_image_with_pose", "metres", "mm_per_count of the device profile: 1000"],
+    );
     study.write("cards/bad/accel.csv", "time_s,x_g,y_g,z_g\n1704067210,0,-1,0\n");
     assert_told_and_rest_complete(&study, &["no_image_with_pose", "too few accelerometer samples"]);
     assert_eq!(reasons(&study, "bad"), [FrameReason::NoAcceleration]);

@@ -203,6 +203,9 @@ fn no_pose(session: &Session<'_>, known: &[Problem]) -> Option<Problem> {
     let has_other_times = known.iter().any(|problem| problem.code == ProblemCode::NoCommonTime);
     let remedy = if has_other_times {
         "correct the times first, as the problem no_common_time says: zone, epoch or the clock's zero"
+    } else if session.frames.iter().all(|frame| frame.signals.reason == FrameReason::NoRange) {
+        "check the range sensor's files and its unit: readings below [signals] range_min_mm (30) do not count, which all are where metres or \
+         centimetres are read as millimetres (mm_per_count of the device profile: 1000 or 10)"
     } else {
         "check the sensors' files, and axes, scales and mount offset of the device profile"
     };
